@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the binding files share: the open device, arrays that own their values, progress that listens to Python.
+#pragma once
+
+#include <exception>
+#include <memory>
+#include <vector>
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "gpu/device.h"
+#include "pipeline.h"
+
+namespace nb = nanobind;
+
+namespace photonloupe::bindings {
+
+// A device with its workbench: what Python calls `Device`.
+struct OpenDevice {
+    gpu::Device device;
+    Workbench workbench;
+    explicit OpenDevice(const std::string& selector) : device(selector), workbench(device) {}
+};
+
+template <class T, std::size_t Width>
+using Matrix = nb::ndarray<nb::numpy, T, nb::shape<-1, static_cast<nb::ssize_t>(Width)>, nb::c_contig>;
+
+// An array of rows that takes the vector's memory along.
+template <class T> nb::object own_array(std::vector<T>&& values, std::size_t width = 0) {
+    auto* kept = new std::vector<T>(std::move(values));
+    nb::capsule owner(kept, [](void* pointer) noexcept { delete static_cast<std::vector<T>*>(pointer); });
+    const std::size_t rows = width == 0 ? kept->size() : kept->size() / width;
+    const std::size_t shape[2] = {rows, width};
+    return nb::cast(nb::ndarray<nb::numpy, T>(kept->data(), width == 0 ? 1 : 2, shape, owner));
+}
+
+// Long work runs without the GIL; between chunks the callback is asked and signals are taken.
+class PythonProgress {
+public:
+    explicit PythonProgress(nb::object callback) : m_callback(std::move(callback)) {}
+
+    // Runs `work(progress)` without the GIL. What the callback or a signal raised comes out as it was raised.
+    template <class Work> auto run(const Work& work) {
+        const Progress progress{[this](std::string_view stage, double fraction) { return ask(stage, fraction); }};
+        try {
+            nb::gil_scoped_release release;
+            return work(progress);
+        } catch (const Cancelled&) {
+            if (m_raised)
+                std::rethrow_exception(m_raised);
+            throw;
+        }
+    }
+
+private:
+    bool ask(std::string_view stage, double fraction) {
+        nb::gil_scoped_acquire acquire;
+        try {
+            if (PyErr_CheckSignals() != 0)
+                throw nb::python_error();
+            if (m_callback.is_none())
+                return true;
+            const nb::object answer = m_callback(nb::str(stage.data(), stage.size()), fraction);
+            return !(nb::isinstance<nb::bool_>(answer) && !nb::cast<bool>(answer));
+        } catch (const nb::python_error&) {
+            m_raised = std::current_exception();
+            return false;
+        }
+    }
+
+    nb::object m_callback;
+    std::exception_ptr m_raised;
+};
+
+void bind_device(nb::module_& module);
+void bind_scene(nb::module_& module);
+void bind_trace(nb::module_& module);
+void bind_photons(nb::module_& module);
+void bind_estimate(nb::module_& module);
+void bind_image(nb::module_& module);
+
+} // namespace photonloupe::bindings

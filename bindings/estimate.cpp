@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// Binds engine/estimate: irradiance at points, and rendering.
+#include "binding.h"
+
+#include "photons/map_columns.h"
+
+namespace photonloupe::bindings {
+namespace {
+
+DensityKernel parse_kernel(const std::string& name) {
+    if (name == "epanechnikov")
+        return DensityKernel::epanechnikov;
+    if (name == "disc")
+        return DensityKernel::disc;
+    if (name == "cone")
+        return DensityKernel::cone;
+    if (name == "gaussian")
+        return DensityKernel::gaussian;
+    throw Error("kernel is '" + name + "'; it must be epanechnikov, disc, cone or gaussian");
+}
+
+RenderMode parse_mode(const std::string& name) {
+    if (name == "composite")
+        return RenderMode::composite;
+    if (name == "caustic")
+        return RenderMode::caustic;
+    if (name == "direct")
+        return RenderMode::direct;
+    if (name == "photons")
+        return RenderMode::photons;
+    throw Error("mode is '" + name + "'; it must be composite, caustic, direct or photons");
+}
+
+nb::object estimate(OpenDevice& open, Photons& photons, Matrix<const double, 3> points,
+                    Matrix<const float, 3> normals, std::uint32_t k, const std::string& kernel, nb::object progress) {
+    const std::vector<glm::vec4> local = localize_points(photons.map, {points.data(), points.size()});
+    std::vector<glm::vec4> directions(normals.shape(0));
+    for (std::size_t i = 0; i < directions.size(); ++i)
+        directions[i] = {normals(i, 0), normals(i, 1), normals(i, 2), 0.0f};
+    const EstimateSettings settings{k, parse_kernel(kernel)};
+    std::vector<float> rgb = PythonProgress(std::move(progress)).run([&](const Progress& asked) {
+        const gpu::Buffer irradiance = open.workbench.estimate_irradiance(photons, local, directions, settings, asked);
+        std::vector<float> values;
+        for (const glm::vec4& value : irradiance.read<glm::vec4>(local.size()))
+            values.insert(values.end(), {value.r, value.g, value.b});
+        return values;
+    });
+    return own_array(std::move(rgb), 3);
+}
+
+RenderSettings read_settings(const nb::dict& given) {
+    RenderSettings settings;
+    settings.camera = nb::cast<std::string>(given["camera"]);
+    settings.width = nb::cast<std::uint32_t>(given["width"]);
+    settings.height = nb::cast<std::uint32_t>(given["height"]);
+    settings.samples = nb::cast<std::uint32_t>(given["samples"]);
+    settings.mode = parse_mode(nb::cast<std::string>(given["mode"]));
+    settings.estimate.k = nb::cast<std::uint32_t>(given["k"]);
+    settings.estimate.kernel = parse_kernel(nb::cast<std::string>(given["kernel"]));
+    settings.seed = nb::cast<std::uint32_t>(given["seed"]);
+    return settings;
+}
+
+nb::object render(OpenDevice& open, const Scene& scene, nb::object photons, const nb::dict& given,
+                  nb::object progress) {
+    const RenderSettings settings = read_settings(given);
+    Photons* map = photons.is_none() ? nullptr : nb::cast<Photons*>(photons);
+    Image image = PythonProgress(std::move(progress)).run([&](const Progress& asked) {
+        return open.workbench.render(scene, map, settings, asked);
+    });
+    auto* kept = new std::vector<float>(std::move(image.rgb));
+    nb::capsule owner(kept, [](void* pointer) noexcept { delete static_cast<std::vector<float>*>(pointer); });
+    const std::size_t shape[3] = {image.height, image.width, 3};
+    return nb::cast(nb::ndarray<nb::numpy, float>(kept->data(), 3, shape, owner));
+}
+
+} // namespace
+
+void bind_estimate(nb::module_& module) {
+    module.def("estimate_irradiance", &estimate, nb::arg("device"), nb::arg("photons"), nb::arg("points"),
+               nb::arg("normals"), nb::arg("k"), nb::arg("kernel"), nb::arg("progress").none() = nb::none(),
+               "Irradiance (n, 3) in W/m² at points with unit normals.");
+    module.def("render_image", &render, nb::arg("device"), nb::arg("scene"), nb::arg("photons").none(),
+               nb::arg("settings"), nb::arg("progress").none() = nb::none(),
+               "Linear radiance (height, width, 3); settings: camera, width, height, samples, mode, k, kernel, seed.");
+}
+
+} // namespace photonloupe::bindings

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds or makes the camera and brings it into map coordinates.
+#include "estimate/camera_frame.h"
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "core/error.h"
+
+namespace photonloupe {
+namespace {
+
+using glm::dvec3;
+
+dvec3 to_vector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+std::array<double, 3> to_array(const dvec3& v) { return {v.x, v.y, v.z}; }
+
+// Looks down at the bounds from above and in front, far enough to see all of them.
+Camera fit_camera(const Scene& scene) {
+    const dvec3 lo = to_vector(scene.bounds.lo), hi = to_vector(scene.bounds.hi);
+    const double radius = std::max(0.5 * glm::length(hi - lo), 1e-30);
+    Camera camera;
+    camera.name = "fitted";
+    const dvec3 backward = glm::normalize(dvec3(0.5, 0.9, 1.0));
+    const dvec3 right = glm::normalize(glm::cross(dvec3(0, 1, 0), backward));
+    camera.position = to_array((lo + hi) * 0.5 + backward * (radius / std::sin(0.5 * camera.yfov)));
+    camera.right = to_array(right);
+    camera.up = to_array(glm::cross(backward, right));
+    camera.backward = to_array(backward);
+    return camera;
+}
+
+} // namespace
+
+Camera find_camera(const Scene& scene, const std::string& name) {
+    if (name.empty())
+        return scene.cameras.empty() ? fit_camera(scene) : scene.cameras.front();
+    std::string names;
+    for (const Camera& camera : scene.cameras) {
+        if (camera.name == name)
+            return camera;
+        names += (names.empty() ? "" : ", ") + camera.name;
+    }
+    throw SceneError(scene.path.string() + ": no camera '" + name + "'; there " +
+                     (names.empty() ? "are none, leave the name out" : "are: " + names));
+}
+
+shared::CameraFrame frame_camera(const Scene& scene, const Camera& camera, std::uint32_t width, std::uint32_t height) {
+    const double reach_up = std::tan(0.5 * camera.yfov);
+    const double reach_right = reach_up * width / height;
+    const glm::vec3 position(to_vector(camera.position) - to_vector(scene.origin));
+    return {glm::vec4(position, 1.0f), glm::vec4(glm::vec3(to_vector(camera.right) * reach_right), 0.0f),
+            glm::vec4(glm::vec3(to_vector(camera.up) * reach_up), 0.0f),
+            glm::vec4(glm::vec3(-to_vector(camera.backward)), 0.0f)};
+}
+
+} // namespace photonloupe

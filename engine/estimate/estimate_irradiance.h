@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Irradiance from the k nearest photons on the same surface (METHODS §2).
+#pragma once
+
+#include <span>
+
+#include "photons/kd_tree.h"
+
+namespace photonloupe {
+
+enum class DensityKernel : std::uint32_t {
+    epanechnikov = shared::KERNEL_EPANECHNIKOV,
+    disc = shared::KERNEL_DISC,
+    cone = shared::KERNEL_CONE,
+    gaussian = shared::KERNEL_GAUSSIAN,
+};
+
+// Largest height above the tangent plane as a share of r (METHODS §2).
+inline constexpr float SURFACE_FLATNESS = 0.1f;
+
+struct EstimateSettings {
+    std::uint32_t k = 50;
+    DensityKernel kernel = DensityKernel::epanechnikov;
+    float flatness = SURFACE_FLATNESS; // 0: no test
+};
+
+// W/m² at each point (xyz relative to the map's origin, with unit normals); rgb, w unused.
+gpu::Buffer estimate_irradiance(gpu::Device& device, const PhotonMap& photons, const KdTree& tree,
+                                const gpu::Buffer& points, const gpu::Buffer& normals, std::uint64_t point_count,
+                                const EstimateSettings& settings, const Progress& progress = {});
+
+} // namespace photonloupe

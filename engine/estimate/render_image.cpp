@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// Renders in chunks of whole pixels: eye paths, direct light, irradiance at what they see, film.
+#include "estimate/render_image.h"
+
+#include <algorithm>
+
+#include "estimate/camera_frame.h"
+#include "estimate/plot_photons.h"
+#include "gpu/commands.h"
+
+namespace photonloupe {
+namespace {
+
+// Diffuse hits one sample may have: behind glass the reflected and the transmitted path are both followed.
+constexpr std::uint32_t DIELECTRIC_SLOTS = 4;
+constexpr std::uint32_t LARGEST_SAMPLE_COUNT = 4096;
+// Slots of one chunk: scratch of 5 columns stays below 100 MiB.
+constexpr std::uint64_t CHUNK_SLOTS = 1ull << 20;
+
+struct FilmScratch {
+    gpu::Buffer hit_point;
+    gpu::Buffer hit_normal;
+    gpu::Buffer hit_weight;
+    gpu::Buffer eye_emission;
+    gpu::Buffer direct_irradiance;
+};
+
+FilmScratch allocate_scratch(gpu::Device& device, std::uint64_t samples, std::uint64_t slots) {
+    const std::uint64_t bytes = samples * slots * sizeof(glm::vec4);
+    return {gpu::Buffer(device, bytes, "eye hits"), gpu::Buffer(device, bytes, "eye hits"),
+            gpu::Buffer(device, bytes, "eye hits"), gpu::Buffer(device, samples * sizeof(glm::vec4), "eye emission"),
+            gpu::Buffer(device, bytes, "direct light")};
+}
+
+struct Renderer {
+    gpu::Device& device;
+    const Scene& scene;
+    const SceneBuffers& buffers;
+    const RenderedMap* map;
+    const RenderSettings& settings;
+    shared::EyeSettings eye{};
+    shared::FilmSettings film_push{};
+    gpu::Buffer film;
+
+    void trace_eye(const FilmScratch& scratch);
+    void light_direct(const FilmScratch& scratch);
+    void accumulate(const FilmScratch& scratch, const gpu::Buffer& irradiance);
+    void render_chunk(const FilmScratch& scratch);
+    Image run(const Progress& progress);
+};
+
+void Renderer::trace_eye(const FilmScratch& scratch) {
+    gpu::Commands commands(device, "trace eye paths");
+    commands.dispatch({"estimate/trace_eye.comp", 64, list_scene_defines(scene), {}},
+                      {{"nodes", buffers.nodes},
+                       {"triangles", buffers.triangles},
+                       {"shading_normals", buffers.normals},
+                       {"materials", buffers.materials},
+                       {"hit_point", scratch.hit_point},
+                       {"hit_normal", scratch.hit_normal},
+                       {"hit_weight", scratch.hit_weight},
+                       {"eye_emission", scratch.eye_emission}},
+                      eye, eye.sample_count);
+    commands.run();
+}
+
+void Renderer::light_direct(const FilmScratch& scratch) {
+    gpu::Commands commands(device, "light directly");
+    commands.dispatch({"estimate/light_direct.comp", 64, {}, {}},
+                      {{"nodes", buffers.nodes},
+                       {"triangles", buffers.triangles},
+                       {"lights", buffers.lights},
+                       {"hit_point", scratch.hit_point},
+                       {"hit_normal", scratch.hit_normal},
+                       {"direct_irradiance", scratch.direct_irradiance}},
+                      film_push, std::uint64_t{film_push.sample_count} * film_push.slot_count);
+    commands.run();
+}
+
+void Renderer::accumulate(const FilmScratch& scratch, const gpu::Buffer& irradiance) {
+    gpu::Commands commands(device, "accumulate film");
+    commands.dispatch({"estimate/accumulate_film.comp", 64, {}, {}},
+                      {{"hit_weight", scratch.hit_weight},
+                       {"direct_irradiance", scratch.direct_irradiance},
+                       {"map_irradiance", irradiance},
+                       {"eye_emission", scratch.eye_emission},
+                       {"film", film}},
+                      film_push, film_push.pixel_count);
+    commands.run();
+}
+
+void Renderer::render_chunk(const FilmScratch& scratch) {
+    trace_eye(scratch);
+    if (film_push.uses_direct)
+        light_direct(scratch);
+    const std::uint64_t slots = std::uint64_t{film_push.sample_count} * film_push.slot_count;
+    const gpu::Buffer irradiance =
+        film_push.uses_map ? estimate_irradiance(device, map->photons, map->tree, scratch.hit_point, scratch.hit_normal,
+                                                 slots, settings.estimate, Progress{})
+                           : gpu::Buffer(device, sizeof(glm::vec4), "no irradiance");
+    accumulate(scratch, irradiance);
+}
+
+Image Renderer::run(const Progress& progress) {
+    const std::uint64_t pixels = std::uint64_t{settings.width} * settings.height;
+    film = gpu::Buffer(device, pixels * sizeof(glm::vec4), "film");
+    const std::uint64_t per_chunk =
+        std::max<std::uint64_t>(1, CHUNK_SLOTS / 4 / (std::uint64_t{settings.samples} * film_push.slot_count));
+    const FilmScratch scratch =
+        allocate_scratch(device, std::min(per_chunk, pixels) * settings.samples, film_push.slot_count);
+    for (std::uint64_t first = 0; first < pixels; first += per_chunk) {
+        progress.report("render", static_cast<double>(first) / static_cast<double>(pixels));
+        const std::uint64_t count = std::min(per_chunk, pixels - first);
+        eye.first_sample = static_cast<std::uint32_t>(first * settings.samples);
+        eye.sample_count = film_push.sample_count = static_cast<std::uint32_t>(count * settings.samples);
+        film_push.first_pixel = static_cast<std::uint32_t>(first);
+        film_push.pixel_count = static_cast<std::uint32_t>(count);
+        render_chunk(scratch);
+    }
+    progress.report("render", 1.0);
+    Image image{settings.width, settings.height, {}, {}};
+    image.rgb.reserve(pixels * 3);
+    for (const glm::vec4& pixel : film.read<glm::vec4>(pixels))
+        image.rgb.insert(image.rgb.end(), {pixel.r, pixel.g, pixel.b});
+    return image;
+}
+
+void require_settings(const RenderSettings& settings, const RenderedMap* map) {
+    check_image_size(settings.width, settings.height, "render");
+    if (settings.samples < 1 || settings.samples > LARGEST_SAMPLE_COUNT)
+        throw Error("render: samples is " + std::to_string(settings.samples) + "; it must be 1 to " +
+                    std::to_string(LARGEST_SAMPLE_COUNT));
+    if (std::uint64_t{settings.width} * settings.height * settings.samples > UINT32_MAX)
+        throw Error("render: width × height × samples exceeds 2^32; render fewer samples, or the image in parts");
+    if (!map && settings.mode != RenderMode::direct)
+        throw Error("render: this mode needs a photon map; trace one, or use mode=\"direct\"");
+}
+
+} // namespace
+
+Image render_image(gpu::Device& device, const Scene& scene, const SceneBuffers& buffers, const RenderedMap* map,
+                   const RenderSettings& settings, const Progress& progress) {
+    require_settings(settings, map);
+    const shared::CameraFrame camera =
+        frame_camera(scene, find_camera(scene, settings.camera), settings.width, settings.height);
+    if (settings.mode == RenderMode::photons)
+        return plot_photons(device, buffers, map->photons, camera, settings.width, settings.height, progress);
+    Renderer renderer{device, scene, buffers, map, settings};
+    const bool is_composite = settings.mode == RenderMode::composite;
+    const bool has_glass = scene.report.has_dielectric || scene.report.has_thin;
+    renderer.eye.camera = camera;
+    renderer.eye.width = settings.width;
+    renderer.eye.height = settings.height;
+    renderer.eye.samples = renderer.film_push.samples = settings.samples;
+    renderer.eye.seed = settings.seed;
+    renderer.eye.max_bounces = settings.max_bounces;
+    renderer.eye.slot_count = renderer.film_push.slot_count = has_glass ? DIELECTRIC_SLOTS : 1;
+    renderer.film_push.light_count = static_cast<std::uint32_t>(scene.lights.size());
+    renderer.film_push.uses_emission = settings.mode != RenderMode::caustic;
+    renderer.film_push.uses_map = settings.mode == RenderMode::caustic || is_composite;
+    renderer.film_push.uses_direct =
+        settings.mode == RenderMode::direct || (is_composite && map->store != Store::all);
+    return renderer.run(progress);
+}
+
+} // namespace photonloupe

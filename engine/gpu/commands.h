@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Records dispatches and copies, submits them, and waits with a deadline; cuts long work into chunks.
+#pragma once
+
+#include <functional>
+#include <initializer_list>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "core/progress.h"
+#include "gpu/buffer.h"
+#include "gpu/device.h"
+#include "gpu/kernel_source.h"
+
+namespace photonloupe::gpu {
+
+// A buffer under the name the kernel declares it by.
+struct Binding {
+    std::string_view name;
+    const Buffer& buffer;
+};
+
+// One batch of work. Steps run in the order recorded, each seeing what the one before wrote.
+class Commands {
+public:
+    // `stage` names the work in timings, messages and deadlines.
+    Commands(Device& device, std::string stage);
+    ~Commands();
+    Commands(const Commands&) = delete;
+    Commands& operator=(const Commands&) = delete;
+
+    template <class Push>
+    void dispatch(const KernelSource& kernel, std::initializer_list<Binding> bindings, const Push& push,
+                  std::uint64_t invocations) {
+        record_dispatch(kernel, bindings, &push, sizeof(Push), invocations);
+    }
+    void copy(const Buffer& source, std::uint64_t source_offset, const Buffer& target, std::uint64_t target_offset,
+              std::uint64_t size_bytes);
+    void copy(const Buffer::Impl& source, std::uint64_t source_offset, const Buffer::Impl& target,
+              std::uint64_t target_offset, std::uint64_t size_bytes); // staging, inside engine/gpu
+    void fill(const Buffer& target, std::uint32_t value);
+
+    // Submits and waits. Throws DeviceError naming the stage when the deadline passes or the device is lost,
+    // and with the layer's message when validation speaks. Returns milliseconds on the device.
+    double run();
+
+private:
+    struct Impl;
+    void record_dispatch(const KernelSource& kernel, std::initializer_list<Binding> bindings, const void* push,
+                         std::uint32_t push_bytes, std::uint64_t invocations);
+    std::unique_ptr<Impl> m_impl;
+};
+
+// Runs `record(commands, first, count)` over [0, total) in chunks that are multiples of `granule` and aim at
+// CHUNK_MILLISECONDS each, reporting progress between them. How work is cut never changes its result.
+void run_in_chunks(Device& device, const std::string& stage, std::uint64_t total, std::uint64_t granule,
+                   const Progress& progress,
+                   const std::function<void(Commands&, std::uint64_t first, std::uint64_t count)>& record);
+
+} // namespace photonloupe::gpu

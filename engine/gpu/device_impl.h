@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a Device owns; shared by the files of engine/gpu and by no one else.
+#pragma once
+
+#include <mutex>
+#include <unordered_map>
+
+#include "gpu/device.h"
+#include "gpu/instance.h"
+#include "gpu/kernel.h"
+#include "gpu/vulkan_api.h"
+
+namespace photonloupe::gpu {
+
+struct Device::Impl {
+    std::shared_ptr<Instance> instance; // shared by all devices of the process: Vulkan allows one debug messenger each
+    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE;
+    VolkDeviceTable table{};
+    VkQueue queue = VK_NULL_HANDLE;
+    std::uint32_t queue_family = 0;
+    VkCommandPool command_pool = VK_NULL_HANDLE;
+    VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
+    VkPhysicalDeviceMemoryProperties memory{};
+    DeviceInfo info;
+    DeviceLimits limits;
+    std::string chosen_because;
+    std::string lost_because; // set once a wait has failed; every later use refuses with it
+    bool fixes_subgroup_size = false; // pipelines must ask for limits.subgroup_size
+    std::uint32_t memory_type_main = 0;
+    std::uint32_t memory_type_staging = 0;
+    std::uint64_t allocated_bytes = 0;
+    double timestamp_nanoseconds = 0; // per tick; 0: the queue has no timestamps
+    std::unordered_map<std::string, std::unique_ptr<Kernel>> kernels;
+    std::map<std::string, StageTiming> timings;
+    std::recursive_mutex mutex; // one queue: work from several Python threads is taken in turn
+
+    void require_alive() const;
+    ~Impl();
+};
+
+} // namespace photonloupe::gpu

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// Expands a kernel's includes and turns its binding pragmas into storage, texel or address declarations.
+#include "gpu/kernel_source.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include <dlfcn.h>
+
+#include "core/error.h"
+
+namespace photonloupe::gpu {
+namespace {
+
+struct Expansion {
+    std::filesystem::path folder;
+    std::set<std::string> seen;
+    ExpandedSource result;
+    std::ostringstream text;
+};
+
+BindingDeclaration parse_binding(const std::string& line, const std::string& where) {
+    std::istringstream words(line);
+    std::string pragma, binding;
+    BindingDeclaration declaration;
+    words >> pragma >> binding >> declaration.type;
+    if (declaration.type == "texel") {
+        declaration.kind = BindingKind::texel;
+        declaration.type = "vec4";
+    } else if (declaration.type == "readonly" || declaration.type == "writeonly" || declaration.type == "coherent") {
+        declaration.qualifier = declaration.type;
+        words >> declaration.type;
+    }
+    words >> declaration.name;
+    std::string rest;
+    if (declaration.name.empty() || (words >> rest && rest.rfind("//", 0) != 0))
+        throw Error(where + ": expected '#pragma binding [readonly|writeonly|texel] TYPE NAME'");
+    return declaration;
+}
+
+void append_file(Expansion& expansion, const std::string& path, const std::string& included_from) {
+    if (!expansion.seen.insert(path).second)
+        return;
+    std::ifstream file(expansion.folder / path);
+    if (!file)
+        throw Error("kernel source '" + path + "' is missing" + included_from +
+                    "; reinstall, or point PHOTONLOUPE_SHADER_DIR at the shaders folder");
+    expansion.text << "#line 1 \"" << path << "\"\n";
+    std::string line;
+    for (int number = 1; std::getline(file, line); ++number) {
+        const std::string where = path + ":" + std::to_string(number);
+        if (line.rfind("#include \"", 0) == 0) {
+            const std::size_t end = line.find('"', 10);
+            append_file(expansion, line.substr(10, end - 10), " (included from " + where + ")");
+            expansion.text << "#line " << number + 1 << " \"" << path << "\"\n";
+        } else {
+            if (line.rfind("#pragma binding", 0) == 0)
+                expansion.result.bindings.push_back(parse_binding(line, where));
+            expansion.text << line << '\n';
+        }
+    }
+}
+
+std::string declare_storage(const BindingDeclaration& binding, std::size_t index) {
+    return "layout(set = 0, binding = " + std::to_string(index) + ", std430) " + binding.qualifier + " buffer " +
+           binding.name + "_block { " + binding.type + " " + binding.name + "[]; };";
+}
+
+std::string declare_pointer(const BindingDeclaration& binding) {
+    return "layout(buffer_reference, std430, buffer_reference_align = 4) " + binding.qualifier + " buffer " +
+           binding.name + "_pointer { " + binding.type + " data[]; };";
+}
+
+// `name_at(i)` reads a texel binding however it is bound.
+std::string declare_texels(const BindingDeclaration& binding, std::size_t index, bool by_address) {
+    if (by_address)
+        return "#define " + binding.name + "_at(i) " + binding.name + "[i]\n" + declare_pointer(binding);
+    return "#define " + binding.name + "_at(i) texelFetch(" + binding.name + ", int(i))\nlayout(set = 0, binding = " +
+           std::to_string(index) + ") uniform samplerBuffer " + binding.name + ";";
+}
+
+// The block of addresses sits behind the last ordinary binding.
+std::string declare_address_block(const ExpandedSource& source, std::uint64_t by_address) {
+    std::string members, names;
+    for (std::size_t index = 0; index < source.bindings.size(); ++index) {
+        if (!(by_address >> index & 1))
+            continue;
+        const std::string& name = source.bindings[index].name;
+        members += name + "_pointer " + name + "_address; ";
+        names += "\n#define " + name + " large_bindings." + name + "_address.data";
+    }
+    return "layout(set = 0, binding = " + std::to_string(source.bindings.size()) +
+           ", std430) readonly buffer large_bindings_block { " + members + "} large_bindings;" + names;
+}
+
+} // namespace
+
+std::string find_shader_folder() {
+    if (const char* folder = std::getenv("PHOTONLOUPE_SHADER_DIR"); folder && *folder)
+        return folder;
+    Dl_info info{};
+    if (dladdr(reinterpret_cast<void*>(&find_shader_folder), &info) && info.dli_fname)
+        return (std::filesystem::absolute(info.dli_fname).parent_path() / "shaders").string();
+    return "shaders";
+}
+
+ExpandedSource expand_source(const std::string& path) {
+    Expansion expansion;
+    expansion.folder = find_shader_folder();
+    append_file(expansion, path, "");
+    expansion.result.text = expansion.text.str();
+    return std::move(expansion.result);
+}
+
+std::string declare_bindings(const ExpandedSource& source, const std::vector<std::string>& defines,
+                             std::uint64_t by_address) {
+    std::ostringstream out;
+    out << "#version 460\n#extension GL_GOOGLE_cpp_style_line_directive : require\n";
+    if (by_address)
+        out << "#extension GL_EXT_buffer_reference : require\n";
+    for (const std::string& define : defines)
+        out << "#define " << define << '\n';
+    std::istringstream in(source.text);
+    std::string line;
+    std::size_t index = 0;
+    while (std::getline(in, line)) {
+        if (line.rfind("#pragma binding", 0) != 0) {
+            out << line << '\n';
+            continue;
+        }
+        const BindingDeclaration& binding = source.bindings[index];
+        const bool large = by_address >> index & 1;
+        if (binding.kind == BindingKind::texel)
+            out << declare_texels(binding, index, large) << '\n';
+        else
+            out << (large ? declare_pointer(binding) : declare_storage(binding, index)) << '\n';
+        if (++index == source.bindings.size() && by_address)
+            out << declare_address_block(source, by_address) << '\n';
+    }
+    return out.str();
+}
+
+} // namespace photonloupe::gpu

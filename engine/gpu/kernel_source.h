@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Names a kernel of shaders/ and expands its text: includes once, and `#pragma binding` lines into declarations.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace photonloupe::gpu {
+
+// What to compile: a file below shaders/, structural defines, and numbers as specialisation constants 1, 2, …
+// (constant 0 is the workgroup's size).
+struct KernelSource {
+    std::string path;                      // "trace/shoot_photons.comp"
+    std::uint32_t workgroup_size = 64;     // 0: one subgroup
+    std::vector<std::string> defines;      // "HAS_DIELECTRIC", "METRIC 2"
+    std::vector<std::uint32_t> constants;  // constant_id 1, 2, …
+};
+
+enum class BindingKind { storage, texel };
+
+// One `#pragma binding [readonly|writeonly] TYPE NAME` or `#pragma binding texel NAME`, in order of appearance.
+struct BindingDeclaration {
+    BindingKind kind = BindingKind::storage;
+    std::string qualifier;
+    std::string type;
+    std::string name;
+};
+
+struct ExpandedSource {
+    std::string text; // includes inlined, each once, with #line marks; binding pragmas still in place
+    std::vector<BindingDeclaration> bindings;
+};
+
+// The folder that holds the kernels: PHOTONLOUPE_SHADER_DIR, else `shaders` beside the program.
+std::string find_shader_folder();
+
+// Reads a kernel with its includes. Throws Error naming the file and line.
+ExpandedSource expand_source(const std::string& path);
+
+// The text glslang gets. `by_address` has a bit for each binding whose buffer is too large for a descriptor.
+std::string declare_bindings(const ExpandedSource& source, const std::vector<std::string>& defines,
+                             std::uint64_t by_address);
+
+} // namespace photonloupe::gpu

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// OpenEXR files: 32-bit float, ZIP, the attributes as strings in the header.
+#pragma once
+
+#include <filesystem>
+
+#include "image/image.h"
+
+namespace photonloupe {
+
+// Keeps every bit, NaN and infinity included. Throws Error.
+void write_exr(const std::filesystem::path& path, const Image& image);
+
+// Reads R, G and B, or Y as gray, of type half, float or uint. Throws Error.
+Image read_exr(const std::filesystem::path& path);
+
+} // namespace photonloupe

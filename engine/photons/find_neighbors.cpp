@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// Drives the neighbour kernel: queries visit the tree in its own order, results stay in the caller's.
+#include "photons/find_neighbors.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <numeric>
+
+#include "gpu/commands.h"
+
+namespace photonloupe {
+namespace {
+
+Neighbors answer(gpu::Device& device, const KdTree& tree, const gpu::Buffer& queries, const gpu::Buffer& order,
+                 std::uint64_t query_count, std::uint32_t k, bool exclude_self, const Progress& progress) {
+    const std::uint64_t bytes = query_count * k * sizeof(float);
+    Neighbors neighbors{gpu::Buffer(device, bytes, "neighbor ids"), gpu::Buffer(device, bytes, "neighbor distances")};
+    const gpu::KernelSource kernel{"photons/find_neighbors.comp", 0, {}, {size_list(k)}};
+    gpu::run_in_chunks(device, "find neighbors", query_count, QUERIES_PER_GROUP * 16, progress,
+                       [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
+                           const shared::NeighborQuery push{static_cast<std::uint32_t>(first),
+                                                            static_cast<std::uint32_t>(count),
+                                                            static_cast<std::uint32_t>(tree.count),
+                                                            tree.leaf_level,
+                                                            k,
+                                                            QUERIES_PER_GROUP,
+                                                            exclude_self ? 1u : 0u,
+                                                            0.0f};
+                           const std::uint64_t groups = (count + QUERIES_PER_GROUP - 1) / QUERIES_PER_GROUP;
+                           commands.dispatch(kernel,
+                                             {{"tree_nodes", tree.nodes},
+                                              {"tree_positions", tree.positions},
+                                              {"queries", queries},
+                                              {"query_order", order},
+                                              {"neighbor_ids", neighbors.ids},
+                                              {"neighbor_distances", neighbors.distances}},
+                                             push, groups * device.limits().subgroup_size);
+                       });
+    return neighbors;
+}
+
+Neighbors make_missing(gpu::Device& device, std::uint64_t query_count, std::uint32_t k) {
+    const std::vector<std::int32_t> ids(query_count * k, -1);
+    const std::vector<float> distances(query_count * k, std::numeric_limits<float>::infinity());
+    return {gpu::make_buffer(device, ids, "neighbor ids"), gpu::make_buffer(device, distances, "neighbor distances")};
+}
+
+// Queries in the order their photons stand in the tree (counting sort over tree positions).
+std::vector<std::uint32_t> order_by_tree(const KdTree& tree, std::span<const std::uint32_t> ids) {
+    std::vector<std::uint32_t> position_of(tree.count);
+    const std::vector<glm::vec4> positions = tree.positions.read<glm::vec4>(tree.count);
+    for (std::uint32_t position = 0; position < positions.size(); ++position) {
+        std::uint32_t id;
+        std::memcpy(&id, &positions[position].w, sizeof id);
+        position_of[id] = position;
+    }
+    std::vector<std::uint32_t> starts(tree.count + 1);
+    for (std::uint32_t id : ids)
+        ++starts[position_of[id] + 1];
+    std::partial_sum(starts.begin(), starts.end(), starts.begin());
+    std::vector<std::uint32_t> order(ids.size());
+    for (std::uint32_t query = 0; query < ids.size(); ++query)
+        order[starts[position_of[ids[query]]]++] = query;
+    return order;
+}
+
+} // namespace
+
+std::uint32_t size_list(std::uint32_t k) {
+    const std::uint32_t grown = k + std::max(k / 4, shared::TREE_LEAF_PHOTONS / 2) + shared::TREE_LEAF_PHOTONS;
+    return std::max(std::bit_ceil(k), grown); // sorting pads to a power of two
+}
+
+void require_k(std::uint32_t k) {
+    if (k < 1 || k > LARGEST_K)
+        throw Error("k is " + std::to_string(k) + "; it must be 1 to " + std::to_string(LARGEST_K));
+}
+
+Neighbors find_neighbors(gpu::Device& device, const KdTree& tree, std::span<const glm::vec4> queries, std::uint32_t k,
+                         bool exclude_self, const Progress& progress) {
+    require_k(k);
+    if (tree.count == 0 || queries.empty())
+        return make_missing(device, queries.size(), k);
+    std::vector<std::uint32_t> order(queries.size());
+    std::iota(order.begin(), order.end(), 0u);
+    return answer(device, tree, gpu::make_buffer(device, queries, "queries"),
+                  gpu::make_buffer(device, order, "query order"), queries.size(), k, exclude_self, progress);
+}
+
+Neighbors find_neighbors_of(gpu::Device& device, const PhotonMap& photons, const KdTree& tree,
+                            std::span<const std::uint32_t> ids, std::uint32_t k, const Progress& progress) {
+    require_k(k);
+    for (std::size_t row = 0; row < ids.size(); ++row)
+        if (ids[row] >= photons.count)
+            throw Error("photon id " + std::to_string(ids[row]) + " at row " + std::to_string(row) +
+                        " is out of range; the map has " + std::to_string(photons.count) + " photons");
+    if (ids.empty())
+        return make_missing(device, 0, k);
+    std::vector<glm::vec4> queries(ids.size());
+    const std::vector<glm::vec4> positions = photons.position_emitter.read<glm::vec4>(photons.count);
+    for (std::size_t row = 0; row < ids.size(); ++row) {
+        queries[row] = positions[ids[row]];
+        std::memcpy(&queries[row].w, &ids[row], sizeof ids[row]);
+    }
+    return answer(device, tree, gpu::make_buffer(device, queries, "queries"),
+                  gpu::make_buffer(device, order_by_tree(tree, ids), "query order"), ids.size(), k, true, progress);
+}
+
+} // namespace photonloupe

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// Drives the kd-tree kernels: copy the photons, split level by level, then whole subtrees at once.
+#include "photons/kd_tree.h"
+
+#include <cstring>
+
+#include "gpu/commands.h"
+
+namespace photonloupe {
+namespace {
+
+// Above this level nodes are few and large: one dispatch a level, a workgroup a node. From here on a workgroup
+// finishes a whole subtree, whose photons then stay in the processor's cache.
+constexpr std::uint32_t SUBTREE_LEVEL = 8;
+
+std::uint32_t find_position(std::uint64_t count, std::uint64_t node, std::uint32_t level) {
+    return static_cast<std::uint32_t>(count * node >> level);
+}
+
+struct CopyPush {
+    std::uint32_t first;
+    std::uint32_t count;
+};
+
+void copy_positions(gpu::Device& device, const PhotonMap& photons, const KdTree& tree, const Progress& progress) {
+    gpu::run_in_chunks(device, "build tree", photons.count, 1 << 16, progress,
+                       [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
+                           const CopyPush push{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count)};
+                           commands.dispatch({"photons/number_photons.comp", 64, {}, {}},
+                                             {{"position_emitter", photons.position_emitter},
+                                              {"tree_positions", tree.positions}},
+                                             push, count);
+                       });
+}
+
+void split_levels(gpu::Device& device, const KdTree& tree, std::uint32_t root_level, std::uint32_t last_level,
+                  const Progress& progress) {
+    gpu::run_in_chunks(device, "build tree", 1ull << root_level, 1, progress,
+                       [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
+                           const shared::TreeBuild push{static_cast<std::uint32_t>(tree.count), tree.leaf_level,
+                                                        root_level, static_cast<std::uint32_t>(first), last_level};
+                           commands.dispatch({"photons/build_tree.comp", 0, {}, {}},
+                                             {{"tree_positions", tree.positions}, {"tree_nodes", tree.nodes}}, push,
+                                             count * device.limits().subgroup_size);
+                       });
+}
+
+void copy_normals(gpu::Device& device, const PhotonMap& photons, const KdTree& tree, const Progress& progress) {
+    gpu::run_in_chunks(device, "build tree", photons.count, 1 << 16, progress,
+                       [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
+                           const CopyPush push{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count)};
+                           commands.dispatch({"photons/gather_normals.comp", 64, {}, {}},
+                                             {{"normal_index", photons.normal_index},
+                                              {"tree_positions", tree.positions},
+                                              {"tree_normals", tree.normals}},
+                                             push, count);
+                       });
+}
+
+} // namespace
+
+std::uint32_t find_leaf_level(std::uint64_t photon_count) {
+    std::uint32_t level = 0;
+    while ((photon_count + (1ull << level) - 1) >> level > shared::TREE_LEAF_PHOTONS)
+        ++level;
+    return level;
+}
+
+KdTree build_tree(gpu::Device& device, const PhotonMap& photons, const Progress& progress) {
+    KdTree tree;
+    tree.count = photons.count;
+    tree.leaf_level = find_leaf_level(photons.count);
+    const std::uint64_t bytes = photons.count * sizeof(glm::vec4);
+    tree.nodes = gpu::Buffer(device, (2ull << tree.leaf_level) * sizeof(shared::TreeNode), "kd-tree nodes");
+    tree.positions = gpu::Buffer(device, bytes, "kd-tree positions");
+    tree.normals = gpu::Buffer(device, bytes, "kd-tree normals");
+    if (photons.count == 0)
+        return tree;
+    copy_positions(device, photons, tree, progress);
+    std::uint32_t level = 0;
+    for (; level < std::min(SUBTREE_LEVEL, tree.leaf_level); ++level)
+        split_levels(device, tree, level, level, progress);
+    split_levels(device, tree, level, tree.leaf_level, progress);
+    copy_normals(device, photons, tree, progress);
+    return tree;
+}
+
+TreeArrays read_tree(const KdTree& tree) {
+    TreeArrays arrays;
+    const std::uint64_t node_count = tree.count == 0 ? 0 : (2ull << tree.leaf_level) - 1;
+    const std::vector<shared::TreeNode> nodes = tree.nodes.read<shared::TreeNode>(node_count + 1);
+    std::uint32_t level = 0;
+    for (std::uint64_t heap = 1; heap <= node_count; ++heap) {
+        while (heap >= 2ull << level)
+            ++level;
+        const shared::TreeNode& node = nodes[heap];
+        const bool is_leaf = level == tree.leaf_level;
+        std::uint32_t axis;
+        std::memcpy(&axis, &node.hi_axis.w, sizeof axis);
+        const std::uint64_t index = heap - (1ull << level);
+        const std::uint32_t first = find_position(tree.count, index, level);
+        arrays.split_axis.push_back(is_leaf ? std::int8_t{-1} : static_cast<std::int8_t>(axis));
+        arrays.split_value.push_back(is_leaf ? 0.0f : node.lo_split.w);
+        arrays.first.push_back(static_cast<std::int32_t>(first));
+        arrays.count.push_back(static_cast<std::int32_t>(find_position(tree.count, index + 1, level) - first));
+        arrays.box.push_back({node.lo_split.x, node.lo_split.y, node.lo_split.z, node.hi_axis.x, node.hi_axis.y,
+                              node.hi_axis.z});
+    }
+    for (const glm::vec4& position : tree.positions.read<glm::vec4>(tree.count)) {
+        std::int32_t id;
+        std::memcpy(&id, &position.w, sizeof id);
+        arrays.order.push_back(id);
+    }
+    return arrays;
+}
+
+} // namespace photonloupe

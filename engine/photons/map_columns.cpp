@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// Packs and unpacks the map's columns.
+#include "photons/map_columns.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include <glm/vec4.hpp>
+
+#include "shared/trace.h"
+
+namespace photonloupe {
+namespace {
+
+// As for scenes: a map whose center is farther away than this many of its own radii is kept relative to the center.
+constexpr double FAR_RADII = 8.0;
+
+std::array<double, 3> choose_origin(std::span<const float> positions) {
+    std::array<double, 3> center{};
+    double radius2 = 0, distance2 = 0;
+    for (std::size_t axis = 0; axis < 3 && !positions.empty(); ++axis) {
+        float lo = positions[axis], hi = positions[axis];
+        for (std::size_t i = axis; i < positions.size(); i += 3) {
+            lo = std::min(lo, positions[i]);
+            hi = std::max(hi, positions[i]);
+        }
+        center[axis] = 0.5 * (static_cast<double>(lo) + hi);
+        radius2 += 0.25 * (static_cast<double>(hi) - lo) * (static_cast<double>(hi) - lo);
+        distance2 += center[axis] * center[axis];
+    }
+    return distance2 > FAR_RADII * FAR_RADII * radius2 ? center : std::array<double, 3>{};
+}
+
+std::int32_t name_object(std::uint32_t bits) {
+    return bits == shared::NO_OBJECT ? -1 : static_cast<std::int32_t>(bits);
+}
+
+// Applies `read` to each packed element of a column.
+template <class T, class Read>
+std::vector<T> unpack(const gpu::Buffer& buffer, std::uint64_t count, const Read& read) {
+    std::vector<T> values;
+    values.reserve(count);
+    for (const glm::vec4& packed : buffer.read<glm::vec4>(count))
+        values.push_back(read(packed));
+    return values;
+}
+
+std::vector<float> unpack_positions(const gpu::Buffer& buffer, std::uint64_t count,
+                                    const std::array<double, 3>& origin) {
+    std::vector<float> values;
+    values.reserve(count * 3);
+    for (const glm::vec4& packed : buffer.read<glm::vec4>(count))
+        for (int axis = 0; axis < 3; ++axis)
+            values.push_back(static_cast<float>(packed[axis] + origin[axis]));
+    return values;
+}
+
+} // namespace
+
+PhotonMap make_map(gpu::Device& device, const MapColumns& columns) {
+    PhotonMap map;
+    map.count = columns.emitter.size();
+    map.origin = choose_origin(columns.positions);
+    std::vector<glm::vec4> position(map.count), normal(map.count), power(map.count);
+    for (std::size_t i = 0; i < map.count; ++i) {
+        for (int axis = 0; axis < 3; ++axis) {
+            position[i][axis] = static_cast<float>(columns.positions[3 * i + axis] - map.origin[axis]);
+            normal[i][axis] = columns.normals[3 * i + axis];
+            power[i][axis] = columns.power[3 * i + axis];
+        }
+        position[i].w = std::bit_cast<float>(columns.emitter[i]);
+        normal[i].w = std::bit_cast<float>(static_cast<std::uint32_t>(columns.emitted_index[i]));
+        const bool has_object = columns.object[i] >= 0;
+        power[i].w = std::bit_cast<float>(has_object ? static_cast<std::uint32_t>(columns.object[i]) : shared::NO_OBJECT);
+    }
+    map.position_emitter = gpu::make_buffer(device, position, "photon positions");
+    map.normal_index = gpu::make_buffer(device, normal, "photon normals");
+    map.power_object = gpu::make_buffer(device, power, "photon powers");
+    return map;
+}
+
+std::vector<float> read_positions(const PhotonMap& photons) {
+    return unpack_positions(photons.position_emitter, photons.count, photons.origin);
+}
+
+std::vector<std::int32_t> read_emitters(const PhotonMap& photons) {
+    return unpack<std::int32_t>(photons.position_emitter, photons.count,
+                                [](const glm::vec4& v) { return std::bit_cast<std::int32_t>(v.w); });
+}
+
+std::vector<std::uint64_t> read_emitted_indices(const PhotonMap& photons) {
+    return unpack<std::uint64_t>(photons.normal_index, photons.count,
+                                 [](const glm::vec4& v) { return std::bit_cast<std::uint32_t>(v.w); });
+}
+
+std::vector<std::int32_t> read_objects(const PhotonMap& photons) {
+    return unpack<std::int32_t>(photons.power_object, photons.count,
+                                [](const glm::vec4& v) { return name_object(std::bit_cast<std::uint32_t>(v.w)); });
+}
+
+std::vector<std::int64_t> read_path_offsets(const PathColumns& paths, std::uint64_t photon_count) {
+    const std::vector<std::uint32_t> starts = paths.starts.read<std::uint32_t>(photon_count + 1);
+    return {starts.begin(), starts.end()};
+}
+
+std::vector<float> read_path_vertices(const PathColumns& paths, const std::array<double, 3>& origin) {
+    return unpack_positions(paths.vertices, paths.vertex_count, origin);
+}
+
+std::vector<std::uint8_t> read_path_interactions(const PathColumns& paths) {
+    return unpack<std::uint8_t>(paths.vertices, paths.vertex_count, [](const glm::vec4& v) {
+        return static_cast<std::uint8_t>(std::bit_cast<std::uint32_t>(v.w) >> 24);
+    });
+}
+
+std::vector<std::int32_t> read_path_objects(const PathColumns& paths) {
+    return unpack<std::int32_t>(paths.vertices, paths.vertex_count, [](const glm::vec4& v) {
+        return name_object(std::bit_cast<std::uint32_t>(v.w) & shared::NO_OBJECT);
+    });
+}
+
+std::vector<glm::vec4> localize_points(const PhotonMap& photons, std::span<const double> points) {
+    std::vector<glm::vec4> local(points.size() / 3);
+    for (std::size_t i = 0; i < local.size(); ++i)
+        for (int axis = 0; axis < 3; ++axis)
+            local[i][axis] = static_cast<float>(points[3 * i + axis] - photons.origin[axis]);
+    return local;
+}
+
+} // namespace photonloupe

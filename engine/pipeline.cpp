@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Connects the stages and remembers what each was given.
+#include "pipeline.h"
+
+namespace photonloupe {
+namespace {
+
+std::string make_key(const Scene& scene, const TraceSettings& settings) {
+    std::string key = scene.hash;
+    for (const std::uint64_t value : {settings.count, settings.emitted, std::uint64_t{settings.seed},
+                                      static_cast<std::uint64_t>(settings.emission),
+                                      static_cast<std::uint64_t>(settings.store),
+                                      std::uint64_t{settings.max_bounces}, std::uint64_t{settings.paths}})
+        key += '/' + std::to_string(value);
+    return key;
+}
+
+} // namespace
+
+const SceneBuffers& Workbench::find_buffers(const Scene& scene) {
+    if (m_scene_hash != scene.hash) {
+        m_scene_hash.clear(); // an upload that fails leaves nothing half-remembered
+        m_scene_buffers = {};
+        m_scene_buffers = upload_scene(m_device, scene);
+        m_scene_hash = scene.hash;
+    }
+    return m_scene_buffers;
+}
+
+std::shared_ptr<Photons> Workbench::trace_photons(const Scene& scene, const TraceSettings& settings,
+                                                  const Progress& progress) {
+    const std::string key = make_key(scene, settings);
+    if (key == m_traced_key)
+        if (std::shared_ptr<Photons> traced = m_traced.lock())
+            return traced;
+    TracedPhotons traced = photonloupe::trace_photons(m_device, scene, find_buffers(scene), settings, progress);
+    auto photons = std::make_shared<Photons>(
+        Photons{std::move(traced.map), traced.report, settings.store, std::nullopt});
+    m_traced = photons;
+    m_traced_key = key;
+    return photons;
+}
+
+const KdTree& Workbench::find_tree(Photons& photons, const Progress& progress) {
+    if (!photons.tree)
+        photons.tree = build_tree(m_device, photons.map, progress);
+    return *photons.tree;
+}
+
+Neighbors Workbench::find_neighbors(Photons& photons, std::span<const glm::vec4> points, std::uint32_t k,
+                                    const Progress& progress) {
+    require_k(k);
+    return photonloupe::find_neighbors(m_device, find_tree(photons, progress), points, k, false, progress);
+}
+
+Neighbors Workbench::find_neighbors_of(Photons& photons, std::span<const std::uint32_t> ids, std::uint32_t k,
+                                       const Progress& progress) {
+    require_k(k);
+    return photonloupe::find_neighbors_of(m_device, photons.map, find_tree(photons, progress), ids, k, progress);
+}
+
+gpu::Buffer Workbench::estimate_irradiance(Photons& photons, std::span<const glm::vec4> points,
+                                           std::span<const glm::vec4> normals, const EstimateSettings& settings,
+                                           const Progress& progress) {
+    require_k(settings.k);
+    const KdTree& tree = find_tree(photons, progress);
+    return photonloupe::estimate_irradiance(m_device, photons.map, tree, gpu::make_buffer(m_device, points, "points"),
+                                            gpu::make_buffer(m_device, normals, "normals"), points.size(), settings,
+                                            progress);
+}
+
+Image Workbench::render(const Scene& scene, Photons* photons, const RenderSettings& settings,
+                        const Progress& progress) {
+    if (!photons)
+        return render_image(m_device, scene, find_buffers(scene), nullptr, settings, progress);
+    const RenderedMap map{photons->map, find_tree(*photons, progress), photons->store};
+    return render_image(m_device, scene, find_buffers(scene), &map, settings, progress);
+}
+
+} // namespace photonloupe

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program on one page: the stages in the order they run. Everything else delegates to a stage's folder.
+//
+//   load_scene → trace_photons → (run_script → relax_photons →) estimate_irradiance / render → save
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "estimate/render_image.h"
+#include "photons/find_neighbors.h"
+#include "trace/trace_photons.h"
+
+namespace photonloupe {
+
+// A photon map with what later stages need of it, built when first asked for and then kept.
+struct Photons {
+    PhotonMap map;
+    TraceReport report;
+    Store store = Store::caustic;
+    std::optional<KdTree> tree;
+};
+
+// Runs the stages on one device and remembers their inputs: a stage whose inputs did not change does not run again.
+class Workbench {
+public:
+    explicit Workbench(gpu::Device& device) : m_device(device) {}
+
+    // Traces, or hands out the living result of the same scene and settings.
+    std::shared_ptr<Photons> trace_photons(const Scene& scene, const TraceSettings& settings, const Progress& progress);
+
+    const KdTree& find_tree(Photons& photons, const Progress& progress = {});
+
+    Neighbors find_neighbors(Photons& photons, std::span<const glm::vec4> points, std::uint32_t k,
+                             const Progress& progress);
+    Neighbors find_neighbors_of(Photons& photons, std::span<const std::uint32_t> ids, std::uint32_t k,
+                                const Progress& progress);
+
+    gpu::Buffer estimate_irradiance(Photons& photons, std::span<const glm::vec4> points,
+                                    std::span<const glm::vec4> normals, const EstimateSettings& settings,
+                                    const Progress& progress);
+
+    // `photons` may be null for direct light alone.
+    Image render(const Scene& scene, Photons* photons, const RenderSettings& settings, const Progress& progress);
+
+    gpu::Device& device() { return m_device; }
+
+private:
+    const SceneBuffers& find_buffers(const Scene& scene);
+
+    gpu::Device& m_device;
+    std::string m_scene_hash; // of m_scene_buffers
+    SceneBuffers m_scene_buffers;
+    std::string m_traced_key; // scene and settings of m_traced
+    std::weak_ptr<Photons> m_traced;
+};
+
+} // namespace photonloupe

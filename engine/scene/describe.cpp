@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// describe_scene: what a scene holds, in a page of text.
+#include <iomanip>
+#include <numbers>
+#include <sstream>
+
+#include "scene/scene.h"
+
+namespace photonloupe {
+namespace {
+
+// Enough to recognize a value; the arrays hold the exact ones.
+constexpr int DIGITS = 6;
+
+template <class Vector>
+std::string format_vector(const Vector& v, double factor = 1.0) {
+    std::ostringstream text;
+    text << std::setprecision(DIGITS) << "(" << v[0] * factor << ", " << v[1] * factor << ", " << v[2] * factor << ")";
+    return text.str();
+}
+
+std::string describe_material(const shared::Material& material) {
+    std::ostringstream text;
+    const float metallic = material.base_color_metallic.w;
+    const float transmission = material.emission_transmission.w;
+    const float clear = (1 - metallic) * transmission;
+    const float diffuse = (1 - metallic) * (1 - transmission);
+    const char* separator = "";
+    const auto add = [&](float weight, const char* name) {
+        if (weight <= 0)
+            return;
+        text << separator;
+        if (weight < 1)
+            text << std::setprecision(3) << weight * 100 << " % ";
+        text << name;
+        separator = " + ";
+    };
+    add(metallic, "mirror");
+    add(clear, material.roughness_thin.y != 0 ? "thin glass" : "glass");
+    add(diffuse, "Lambert");
+    text << ", color " << format_vector(material.base_color_metallic);
+    if (clear > 0 && material.roughness_thin.y == 0)
+        text << ", ior " << material.absorption_ior.w << ", absorption " << format_vector(material.absorption_ior)
+             << " 1/m";
+    if (material.emission_transmission.x + material.emission_transmission.y + material.emission_transmission.z > 0)
+        text << ", emits " << format_vector(material.emission_transmission) << " W/(m² sr)";
+    return text.str();
+}
+
+std::string join(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names)
+        text += (text.empty() ? "" : ", ") + name;
+    return text.empty() ? "nothing" : text;
+}
+
+void list_lines(std::ostringstream& text, const char* title, const std::vector<std::string>& lines) {
+    if (lines.empty())
+        return;
+    text << title << "\n";
+    for (const std::string& line : lines)
+        text << "  " << line << "\n";
+}
+
+} // namespace
+
+SceneFeatures list_features(const SceneReport& report) {
+    const std::pair<bool, const char*> features[] = {
+        {report.has_diffuse, "Lambert"},        {report.has_mirror, "mirrors"},
+        {report.has_dielectric, "dielectrics"}, {report.has_absorption, "absorption"},
+        {report.has_thin, "thin glass"},        {report.has_emission, "emission seen by cameras"}};
+    SceneFeatures result;
+    for (const auto& [present, name] : features)
+        (present ? result.required : result.left_out).emplace_back(name);
+    return result;
+}
+
+std::string describe_scene(const Scene& scene) {
+    std::ostringstream text;
+    text << std::setprecision(DIGITS);
+    text << "scene " << scene.path.string() << " (" << scene.hash << ")\n"
+         << scene.triangles.size() << " triangles in " << scene.objects.size() << " objects, " << scene.nodes.size()
+         << " BVH nodes\n"
+         << "bounds " << format_vector(scene.bounds.lo) << " … " << format_vector(scene.bounds.hi) << " m";
+    if (scene.origin != std::array<double, 3>{})
+        text << ", computed relative to " << format_vector(scene.origin);
+    text << "\n" << scene.lights.size() << (scene.lights.size() == 1 ? " light\n" : " lights\n");
+    for (std::size_t i = 0; i < scene.lights.size(); ++i)
+        text << "  " << scene.light_names[i] << ": point light, "
+             << format_vector(scene.lights[i].intensity, 4 * std::numbers::pi) << " W\n";
+    text << scene.cameras.size() << (scene.cameras.size() == 1 ? " camera\n" : " cameras\n");
+    for (const Camera& camera : scene.cameras)
+        text << "  " << camera.name << ": at " << format_vector(camera.position) << ", "
+             << camera.yfov * 180 / std::numbers::pi << "° high\n";
+    text << scene.materials.size() << (scene.materials.size() == 1 ? " material\n" : " materials\n");
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        text << "  " << scene.material_names[i] << ": " << describe_material(scene.materials[i]) << "\n";
+    const SceneFeatures features = list_features(scene.report);
+    text << "required: " << join(features.required) << "\nleft out: " << join(features.left_out) << "\n";
+    list_lines(text, "ignored:", scene.report.ignored);
+    list_lines(text, "notes:", scene.report.notes);
+    return text.str();
+}
+
+} // namespace photonloupe

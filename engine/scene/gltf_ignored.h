@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lists what a scene file contains that nothing here models, so that no result is wrong in silence.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/json_place.h"
+
+namespace photonloupe {
+
+// One sentence per feature, by name and with the places or the count.
+std::vector<std::string> list_ignored_features(const JsonPlace& root);
+
+// Extensions that are read; any other in `extensionsRequired` is refused.
+bool is_known_extension(std::string_view name);
+
+} // namespace photonloupe

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ranges of material factors, light intensities and camera angles.
+#include "scene/gltf_materials.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <nlohmann/json.hpp>
+
+#include "scene/limits.h"
+
+namespace photonloupe {
+namespace {
+
+constexpr NumberRange UNIT{0.0, 1.0};
+// Radiances and intensities are stored as 32-bit floats and multiplied with others on the way.
+constexpr NumberRange POWER{0.0, 1e30};
+constexpr NumberRange NOT_NEGATIVE{0.0};
+// Beyond, a field of view has no finite image plane.
+constexpr double MAX_YFOV = 3.14;
+// Indices of refraction of real matter end near 4; glTF's special 0 (a perfect Fresnel reflector) is not modeled.
+constexpr NumberRange IOR{1.0, 100.0};
+
+JsonPlace find_extension(const JsonPlace& owner, const char* name) {
+    return find_member(find_member(owner, "extensions"), name);
+}
+
+NumberRange require_positive(const JsonPlace& place, double hi) {
+    if (place.value && place.value->is_number() && place.value->get<double>() <= 0)
+        refuse(place, "it must be more than 0", "set it to a positive value");
+    return {0.0, hi};
+}
+
+void write_volume(const JsonPlace& material, Json& extensions) {
+    const JsonPlace volume = find_extension(material, "KHR_materials_volume");
+    if (!volume.value)
+        return;
+    Json& approved = extensions["KHR_materials_volume"];
+    approved["thicknessFactor"] = read_number_or(find_member(volume, "thicknessFactor"), 0.0, NOT_NEGATIVE);
+    approved["attenuationColor"] = read_numbers_or(find_member(volume, "attenuationColor"), {1, 1, 1}, UNIT);
+    const JsonPlace distance = find_member(volume, "attenuationDistance");
+    if (distance.value)
+        approved["attenuationDistance"] = read_number(distance, require_positive(distance, NumberRange{}.hi));
+}
+
+Json check_material(const JsonPlace& place) {
+    const JsonPlace pbr = find_member(place, "pbrMetallicRoughness");
+    Json extensions = Json::object();
+    extensions["KHR_materials_transmission"]["transmissionFactor"] = read_number_or(
+        find_member(find_extension(place, "KHR_materials_transmission"), "transmissionFactor"), 0.0, UNIT);
+    extensions["KHR_materials_ior"]["ior"] =
+        read_number_or(find_member(find_extension(place, "KHR_materials_ior"), "ior"), 1.5, IOR);
+    extensions["KHR_materials_emissive_strength"]["emissiveStrength"] = read_number_or(
+        find_member(find_extension(place, "KHR_materials_emissive_strength"), "emissiveStrength"), 1.0, POWER);
+    write_volume(place, extensions);
+    return {{"name", read_string_or(find_member(place, "name"), "")},
+            {"pbrMetallicRoughness",
+             {{"baseColorFactor", read_numbers_or(find_member(pbr, "baseColorFactor"), {1, 1, 1, 1}, UNIT)},
+              {"metallicFactor", read_number_or(find_member(pbr, "metallicFactor"), 1.0, UNIT)},
+              {"roughnessFactor", read_number_or(find_member(pbr, "roughnessFactor"), 1.0, UNIT)}}},
+            {"emissiveFactor", read_numbers_or(find_member(place, "emissiveFactor"), {0, 0, 0}, UNIT)},
+            {"extensions", std::move(extensions)}};
+}
+
+Json check_light(const JsonPlace& place) {
+    const std::string type = read_string(require_member(place, "type"));
+    if (type != "point" && type != "spot" && type != "directional")
+        refuse(find_member(place, "type"), quote_text(type) + " is no kind of light", "use point, spot or directional");
+    const auto color = read_numbers_or(find_member(place, "color"), {1, 1, 1}, POWER);
+    const double intensity = read_number_or(find_member(place, "intensity"), 1.0, POWER);
+    for (const double channel : color)
+        if (channel * intensity > POWER.hi)
+            refuse(place, "color times intensity is beyond the range of 32-bit floats", "lower the intensity");
+    return {{"name", read_string_or(find_member(place, "name"), "")},
+            {"type", type == "point" ? "point" : "none"},
+            {"color", color},
+            {"intensity", intensity}};
+}
+
+Json check_camera(const JsonPlace& place) {
+    Json approved{{"name", read_string_or(find_member(place, "name"), "")}};
+    const std::string type = read_string(require_member(place, "type"));
+    if (type != "perspective") {
+        approved["type"] = "orthographic";
+        approved["orthographic"] = {{"xmag", 1.0}, {"ymag", 1.0}, {"znear", 0.0}, {"zfar", 1.0}};
+        return approved;
+    }
+    const JsonPlace perspective = require_member(place, "perspective");
+    const JsonPlace yfov = require_member(perspective, "yfov");
+    const JsonPlace aspect = find_member(perspective, "aspectRatio");
+    approved["type"] = type;
+    approved["perspective"] = {{"yfov", read_number(yfov, require_positive(yfov, MAX_YFOV))},
+                               {"aspectRatio", read_number_or(aspect, 0.0, require_positive(aspect, 1e6))},
+                               {"znear", 1.0}}; // required by the parser; the pinhole here has no near plane
+    return approved;
+}
+
+} // namespace
+
+void check_materials(const JsonPlace& root, Json& approved) {
+    const JsonPlace materials = find_member(root, "materials");
+    const std::size_t count = count_elements(materials, MAX_ENTRIES);
+    for (std::size_t i = 0; i < count; ++i)
+        approved["materials"].push_back(check_material(get_element(materials, i)));
+}
+
+std::size_t check_lights(const JsonPlace& root, Json& approved) {
+    const JsonPlace lights = find_member(find_extension(root, "KHR_lights_punctual"), "lights");
+    const std::size_t count = count_elements(lights, MAX_ENTRIES);
+    for (std::size_t i = 0; i < count; ++i)
+        approved["extensions"]["KHR_lights_punctual"]["lights"].push_back(check_light(get_element(lights, i)));
+    return count;
+}
+
+std::size_t check_cameras(const JsonPlace& root, Json& approved) {
+    const JsonPlace cameras = find_member(root, "cameras");
+    const std::size_t count = count_elements(cameras, MAX_ENTRIES);
+    for (std::size_t i = 0; i < count; ++i)
+        approved["cameras"].push_back(check_camera(get_element(cameras, i)));
+    return count;
+}
+
+} // namespace photonloupe

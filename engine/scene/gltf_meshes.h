@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Checks meshes: which accessors a primitive may read, every index and every coordinate.
+#pragma once
+
+#include <vector>
+
+#include "scene/gltf_accessors.h"
+
+namespace photonloupe {
+
+// glTF's primitive modes that make triangles.
+constexpr std::uint64_t MODE_TRIANGLES = 4;
+constexpr std::uint64_t MODE_TRIANGLE_STRIP = 5;
+constexpr std::uint64_t MODE_TRIANGLE_FAN = 6;
+
+// Writes the approved meshes and returns how many triangles each one has.
+// Primitives that draw no triangles are left out and listed in `ignored`.
+std::vector<std::uint64_t> check_meshes(const JsonPlace& root, const std::vector<AccessorSpan>& accessors,
+                                        const BufferBytes& buffers, Json& approved, std::vector<std::string>& ignored);
+
+} // namespace photonloupe

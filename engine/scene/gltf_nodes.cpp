@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// The node graph: parents, cycles, depth, transforms, and the number of triangles it draws.
+#include "scene/gltf_nodes.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "scene/limits.h"
+
+namespace photonloupe {
+namespace {
+
+constexpr const char* REMEDY = "repair the file or export it again";
+
+struct NodeLinks {
+    std::vector<std::uint32_t> children;
+    std::optional<std::uint32_t> parent;
+    std::optional<std::uint32_t> mesh;
+};
+
+std::vector<std::uint32_t> read_indices(const JsonPlace& array, std::size_t count) {
+    std::vector<std::uint32_t> indices;
+    for (std::size_t i = 0; i < count_elements(array, MAX_ENTRIES); ++i)
+        indices.push_back(*read_index(get_element(array, i), count, "node"));
+    return indices;
+}
+
+void check_matrix(const JsonPlace& place) {
+    const std::vector<double> matrix = read_numbers_or(place, std::vector<double>(16));
+    if (matrix[3] != 0 || matrix[7] != 0 || matrix[11] != 0 || matrix[15] != 1)
+        refuse(place, "the matrix is not affine (its last row is not 0 0 0 1)", REMEDY);
+}
+
+void write_transform(const JsonPlace& node, Json& approved) {
+    const JsonPlace matrix = find_member(node, "matrix");
+    if (matrix.value) {
+        for (const char* key : {"translation", "rotation", "scale"})
+            if (find_member(node, key).value)
+                refuse(node, std::string("it has both a matrix and a ") + key, "keep one of them");
+        check_matrix(matrix);
+        approved["matrix"] = *matrix.value;
+        return;
+    }
+    const auto rotation = read_numbers_or(find_member(node, "rotation"), {0, 0, 0, 1});
+    if (std::all_of(rotation.begin(), rotation.end(), [](double part) { return part == 0; }))
+        refuse(find_member(node, "rotation"), "the rotation is a quaternion of length 0", REMEDY);
+    approved["rotation"] = rotation;
+    approved["translation"] = read_numbers_or(find_member(node, "translation"), {0, 0, 0});
+    approved["scale"] = read_numbers_or(find_member(node, "scale"), {1, 1, 1});
+}
+
+NodeLinks check_node(const JsonPlace& node, std::size_t node_count, const NodeTargets& targets, Json& approved) {
+    NodeLinks links;
+    links.children = read_indices(find_member(node, "children"), node_count);
+    links.mesh = read_index(find_member(node, "mesh"), targets.mesh_triangles.size(), "mesh");
+    approved = {{"name", read_string_or(find_member(node, "name"), "")}};
+    write_transform(node, approved);
+    if (!links.children.empty())
+        approved["children"] = links.children;
+    if (links.mesh)
+        approved["mesh"] = *links.mesh;
+    if (const auto camera = read_index(find_member(node, "camera"), targets.camera_count, "camera"))
+        approved["camera"] = *camera;
+    const JsonPlace extension = find_member(find_member(node, "extensions"), "KHR_lights_punctual");
+    if (extension.value) {
+        const auto light = *read_index(require_member(extension, "light"), targets.light_count, "light");
+        approved["extensions"]["KHR_lights_punctual"]["light"] = light;
+    }
+    return links;
+}
+
+void link_parents(const JsonPlace& nodes, std::vector<NodeLinks>& links) {
+    for (std::uint32_t node = 0; node < links.size(); ++node)
+        for (const std::uint32_t child : links[node].children) {
+            if (links[child].parent)
+                refuse(get_element(nodes, child),
+                       "it is a child of node " + std::to_string(*links[child].parent) + " and of node " +
+                           std::to_string(node),
+                       "give every node one parent");
+            links[child].parent = node;
+        }
+}
+
+// Visits every tree from its root; nodes that are left over lie on a cycle.
+void check_depth(const JsonPlace& nodes, const std::vector<NodeLinks>& links) {
+    std::vector<std::size_t> depths(links.size(), 0); // 0: not visited
+    std::vector<std::uint32_t> stack;
+    for (std::uint32_t root = 0; root < links.size(); ++root) {
+        if (links[root].parent)
+            continue;
+        stack.push_back(root);
+        depths[root] = 1;
+        while (!stack.empty()) {
+            const std::uint32_t node = stack.back();
+            stack.pop_back();
+            if (depths[node] > MAX_NODE_DEPTH)
+                refuse(get_element(nodes, node), "nodes are nested deeper than " + std::to_string(MAX_NODE_DEPTH),
+                       "flatten the node tree");
+            for (const std::uint32_t child : links[node].children) {
+                depths[child] = depths[node] + 1;
+                stack.push_back(child);
+            }
+        }
+    }
+    const auto unvisited = std::find(depths.begin(), depths.end(), 0);
+    if (unvisited != depths.end())
+        refuse(get_element(nodes, std::size_t(unvisited - depths.begin())), "it is its own ancestor",
+               "break the cycle of nodes");
+}
+
+std::vector<std::uint32_t> find_roots(const JsonPlace& root, const JsonPlace& nodes,
+                                      const std::vector<NodeLinks>& links, std::vector<std::string>& ignored) {
+    const JsonPlace scenes = find_member(root, "scenes");
+    const std::size_t scene_count = count_elements(scenes, MAX_ENTRIES);
+    std::vector<std::uint32_t> roots;
+    const auto scene = read_index(find_member(root, "scene"), scene_count, "scene");
+    if (!scene) {
+        for (std::uint32_t node = 0; node < links.size(); ++node)
+            if (!links[node].parent)
+                roots.push_back(node);
+        return roots;
+    }
+    if (scene_count > 1)
+        ignored.push_back("/scenes: only the default scene " + std::to_string(*scene) + " of " +
+                          std::to_string(scene_count) + " is read");
+    roots = read_indices(find_member(get_element(scenes, *scene), "nodes"), links.size());
+    std::vector<bool> is_root(links.size(), false);
+    for (const std::uint32_t node : roots) {
+        if (links[node].parent || is_root[node])
+            refuse(get_element(nodes, node),
+                   "scene " + std::to_string(*scene) + " lists it as a root, but it is " +
+                       (links[node].parent ? "a child" : "listed twice"),
+                   "list every root once");
+        is_root[node] = true;
+    }
+    return roots;
+}
+
+void check_triangle_count(const JsonPlace& nodes, const std::vector<NodeLinks>& links,
+                          const std::vector<std::uint64_t>& mesh_triangles, std::vector<std::uint32_t> stack) {
+    std::uint64_t total = 0;
+    while (!stack.empty()) {
+        const NodeLinks& node = links[stack.back()];
+        stack.pop_back();
+        stack.insert(stack.end(), node.children.begin(), node.children.end());
+        total += node.mesh ? mesh_triangles[*node.mesh] : 0; // at most 2^18 nodes of 2^49 triangles
+        if (total > MAX_TRIANGLES)
+            refuse(nodes, "the scene draws more than " + std::to_string(MAX_TRIANGLES) + " triangles",
+                   "simplify the meshes or draw fewer instances");
+    }
+}
+
+} // namespace
+
+void check_nodes(const JsonPlace& root, const NodeTargets& targets, Json& approved, std::vector<std::string>& ignored) {
+    const JsonPlace nodes = find_member(root, "nodes");
+    const std::size_t node_count = count_elements(nodes, MAX_ENTRIES);
+    std::vector<NodeLinks> links;
+    for (std::size_t i = 0; i < node_count; ++i) {
+        approved["nodes"].emplace_back();
+        links.push_back(check_node(get_element(nodes, i), node_count, targets, approved["nodes"].back()));
+    }
+    link_parents(nodes, links);
+    check_depth(nodes, links);
+    const std::vector<std::uint32_t> roots = find_roots(root, nodes, links, ignored);
+    check_triangle_count(nodes, links, targets.mesh_triangles, roots);
+    approved["scene"] = 0;
+    approved["scenes"] = Json::array({{{"nodes", roots}}});
+}
+
+} // namespace photonloupe

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs the checks in order and writes the approved document.
+#include "scene/gltf_wall.h"
+
+#include <algorithm>
+#include <memory>
+
+#define XXH_INLINE_ALL
+#include <nlohmann/json.hpp>
+#include <xxhash.h>
+
+#include "scene/gltf_container.h"
+#include "scene/gltf_ignored.h"
+#include "scene/gltf_materials.h"
+#include "scene/gltf_meshes.h"
+#include "scene/gltf_nodes.h"
+#include "scene/gltf_uri.h"
+#include "scene/limits.h"
+
+namespace photonloupe {
+namespace {
+
+void check_version(const JsonPlace& root) {
+    const JsonPlace asset = require_member(root, "asset");
+    const JsonPlace version = require_member(asset, "version");
+    const std::string text = read_string(version);
+    if (!text.starts_with("2."))
+        refuse(version, "glTF version " + quote_text(text), "only glTF 2 is read: export it again");
+    const std::string minimum = read_string_or(find_member(asset, "minVersion"), "2.0");
+    if (minimum != "2.0")
+        refuse(find_member(asset, "minVersion"), "it needs glTF " + quote_text(minimum), "export it as glTF 2.0");
+}
+
+void check_required_extensions(const JsonPlace& root) {
+    const JsonPlace required = find_member(root, "extensionsRequired");
+    for (std::size_t i = 0; i < count_elements(required, MAX_ENTRIES); ++i) {
+        const JsonPlace place = get_element(required, i);
+        const std::string name = read_string(place);
+        if (!is_known_extension(name))
+            refuse(place, "the required extension " + quote_text(name) + " is not supported", "export it without");
+    }
+}
+
+// Images are never opened; what they name is held to the same rules all the same.
+void check_images(const JsonPlace& root, const std::filesystem::path& folder) {
+    const JsonPlace images = find_member(root, "images");
+    const std::size_t count = count_elements(images, MAX_IMAGES);
+    for (std::size_t i = 0; i < count; ++i) {
+        const JsonPlace place = find_member(get_element(images, i), "uri");
+        if (!place.value)
+            continue;
+        const std::string uri = read_string(place);
+        if (!uri.starts_with("data:") && !folder.empty())
+            resolve_uri(uri, folder, place);
+    }
+}
+
+std::string hash_content(std::string_view json, const BufferBytes& buffers) {
+    const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), &XXH3_freeState);
+    XXH3_128bits_reset(state.get());
+    XXH3_128bits_update(state.get(), json.data(), json.size());
+    for (const auto& buffer : buffers)
+        XXH3_128bits_update(state.get(), buffer.data(), buffer.size());
+    XXH128_canonical_t canonical;
+    XXH128_canonicalFromHash(&canonical, XXH3_128bits_digest(state.get()));
+    constexpr std::string_view DIGITS = "0123456789abcdef";
+    std::string text;
+    for (const unsigned char byte : canonical.digest) {
+        text += DIGITS[byte >> 4];
+        text += DIGITS[byte & 15];
+    }
+    return text;
+}
+
+} // namespace
+
+ApprovedGltf approve_gltf(std::span<const unsigned char> bytes, const std::filesystem::path& folder,
+                          const std::string& name) {
+    const JsonPlace file{nullptr, "", &name};
+    const GltfContainer container = split_container(bytes, file);
+    const Json document = parse_json(container.json, file);
+    const JsonPlace root{&document, "", &name};
+    check_version(root);
+    check_required_extensions(root);
+    check_images(root, folder);
+
+    ApprovedGltf result;
+    Json approved{{"asset", {{"version", "2.0"}}}};
+    result.ignored = list_ignored_features(root);
+    result.buffers = read_buffers(root, folder, container.binary_chunk);
+    const std::vector<AccessorSpan> accessors = check_accessors(root, result.buffers);
+    write_accessors(accessors, result.buffers, approved);
+    check_materials(root, approved);
+    NodeTargets targets;
+    targets.mesh_triangles = check_meshes(root, accessors, result.buffers, approved, result.ignored);
+    targets.camera_count = check_cameras(root, approved);
+    targets.light_count = check_lights(root, approved);
+    check_nodes(root, targets, approved, result.ignored);
+    result.json = approved.dump();
+    result.hash = hash_content(container.json, result.buffers);
+    return result;
+}
+
+} // namespace photonloupe

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// The wall in front of the glTF parser: only what was checked here is ever shown to it.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/gltf_accessors.h"
+
+namespace photonloupe {
+
+// A scene file that was taken apart, checked and written anew from known members only.
+struct ApprovedGltf {
+    std::string json; // names its buffers by name_buffer(), has no images, extras or unknown extensions
+    BufferBytes buffers;
+    std::string hash; // XXH3-128 of the file's JSON and all its buffers, hex
+    std::vector<std::string> ignored;
+};
+
+// `name` is what messages call the file. URIs are resolved below `folder`; an empty folder allows embedded data only.
+ApprovedGltf approve_gltf(std::span<const unsigned char> bytes, const std::filesystem::path& folder,
+                          const std::string& name);
+
+} // namespace photonloupe

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// Material factors after METHODS section 0 and what they leave unmodeled.
+#include "scene/load_materials.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "scene/json_place.h"
+
+namespace photonloupe {
+namespace {
+
+// -ln 0 is infinite: an attenuation color of 0 is read as the smallest normal float (87 mean free paths).
+constexpr double MIN_TRANSMITTANCE = std::numeric_limits<float>::min();
+
+// Member of an extension as a number; the wall has filled in every default that matters.
+double read_extension_number(const tinygltf::Material& material, const char* extension, const char* key,
+                             double fallback) {
+    const auto found = material.extensions.find(extension);
+    if (found == material.extensions.end() || !found->second.Has(key))
+        return fallback;
+    return found->second.Get(key).GetNumberAsDouble();
+}
+
+// Beer-Lambert coefficients in 1/m: the color is what is left after the distance.
+glm::vec3 compute_absorption(const tinygltf::Material& material, const std::string& scene_name) {
+    const double distance = read_extension_number(material, "KHR_materials_volume", "attenuationDistance",
+                                                  std::numeric_limits<double>::infinity());
+    glm::vec3 absorption(0.0f);
+    if (!std::isfinite(distance))
+        return absorption;
+    const tinygltf::Value& color = material.extensions.at("KHR_materials_volume").Get("attenuationColor");
+    for (int i = 0; i < 3; ++i) {
+        const double channel = std::max(color.Get(i).GetNumberAsDouble(), MIN_TRANSMITTANCE);
+        absorption[i] = float(std::max(0.0, -std::log(channel) / distance));
+        if (!std::isfinite(absorption[i]))
+            throw SceneError(scene_name + ": material " + quote_text(material.name) +
+                             ": its attenuationDistance is too small for 32-bit floats; make it longer");
+    }
+    return absorption;
+}
+
+shared::Material convert_material(const tinygltf::Material& material, const std::string& scene_name) {
+    const tinygltf::PbrMetallicRoughness& pbr = material.pbrMetallicRoughness;
+    const double transmission =
+        read_extension_number(material, "KHR_materials_transmission", "transmissionFactor", 0.0);
+    const double thickness = read_extension_number(material, "KHR_materials_volume", "thicknessFactor", 0.0);
+    const double strength = read_extension_number(material, "KHR_materials_emissive_strength", "emissiveStrength", 1.0);
+    const bool is_thin = transmission > 0 && thickness == 0;
+    const bool is_solid = transmission > 0 && thickness > 0;
+    const glm::vec3 absorption = is_solid ? compute_absorption(material, scene_name) : glm::vec3(0.0f);
+    shared::Material result{};
+    for (int i = 0; i < 3; ++i) {
+        result.base_color_metallic[i] = float(pbr.baseColorFactor[std::size_t(i)]);
+        result.emission_transmission[i] = float(material.emissiveFactor[std::size_t(i)] * strength);
+    }
+    result.base_color_metallic.w = float(pbr.metallicFactor);
+    result.absorption_ior = {absorption, float(read_extension_number(material, "KHR_materials_ior", "ior", 1.5))};
+    result.emission_transmission.w = float(transmission);
+    result.roughness_thin = {float(pbr.roughnessFactor), is_thin ? 1.0f : 0.0f, 0.0f, 0.0f};
+    return result;
+}
+
+shared::Material make_default_material() {
+    shared::Material material{};
+    material.base_color_metallic = {1.0f, 1.0f, 1.0f, 1.0f};
+    material.absorption_ior = {0.0f, 0.0f, 0.0f, 1.5f};
+    material.roughness_thin = {1.0f, 0.0f, 0.0f, 0.0f};
+    return material;
+}
+
+std::vector<bool> find_used_materials(const Scene& scene) {
+    std::vector<bool> used(scene.materials.size(), false);
+    for (const SceneObject& object : scene.objects)
+        if (object.triangle_count > 0)
+            used[object.material] = true;
+    return used;
+}
+
+void report_material(const shared::Material& material, const std::string& label, SceneReport& report) {
+    const float metallic = material.base_color_metallic.w;
+    const float transmission = material.emission_transmission.w;
+    const float roughness = material.roughness_thin.x;
+    const bool is_thin = material.roughness_thin.y != 0.0f;
+    const bool is_clear = metallic < 1 && transmission > 0;
+    const bool is_diffuse = metallic < 1 && transmission < 1;
+    const bool absorbs =
+        std::max({material.absorption_ior.x, material.absorption_ior.y, material.absorption_ior.z}) > 0;
+    const glm::vec3 emission(material.emission_transmission);
+    const bool emits = std::max({emission.x, emission.y, emission.z}) > 0;
+
+    report.has_mirror |= metallic > 0;
+    report.has_dielectric |= is_clear && !is_thin;
+    report.has_thin |= is_clear && is_thin;
+    report.has_absorption |= is_clear && !is_thin && absorbs;
+    report.has_diffuse |= is_diffuse;
+    report.has_emission |= emits;
+
+    if (roughness > 0 && (metallic > 0 || is_clear))
+        report.ignored.push_back(label + ": its roughness is not modeled yet, it is treated as smooth");
+    if (is_diffuse)
+        report.ignored.push_back(label + ": the specular lobe of its opaque, non-metal part is not modeled (Lambert)");
+    if (emits)
+        report.ignored.push_back(label + ": its emission is seen by cameras but does not light the scene yet");
+}
+
+} // namespace
+
+void load_materials(const tinygltf::Model& model, Scene& scene) {
+    const std::string scene_name = scene.path.string();
+    for (std::size_t i = 0; i < model.materials.size(); ++i) {
+        const tinygltf::Material& material = model.materials[i];
+        scene.materials.push_back(convert_material(material, scene_name));
+        scene.material_names.push_back(material.name.empty() ? "material " + std::to_string(i) : material.name);
+    }
+    const bool needs_default = std::any_of(scene.objects.begin(), scene.objects.end(), [&](const SceneObject& object) {
+        return object.material == model.materials.size();
+    });
+    if (needs_default) {
+        scene.materials.push_back(make_default_material());
+        scene.material_names.push_back("glTF default");
+    }
+    const std::vector<bool> used = find_used_materials(scene);
+    for (std::size_t i = 0; i < used.size(); ++i)
+        if (used[i])
+            report_material(scene.materials[i], "material " + quote_text(scene.material_names[i]), scene.report);
+}
+
+} // namespace photonloupe

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// Turns glTF materials into the kernels' mixture of Lambert, mirror and dielectric.
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include "scene/scene.h"
+
+namespace photonloupe {
+
+// Fills materials and names, and reports what the materials of loaded triangles need and what is not modeled.
+// Appends glTF's default material if an object asks for it.
+void load_materials(const tinygltf::Model& model, Scene& scene);
+
+} // namespace photonloupe

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two passes over all primitives: bounds and origin first, then the triangles, rounded to float once.
+#include "scene/load_triangles.h"
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+#include "core/error.h"
+#include "scene/limits.h"
+#include "scene/primitive_reader.h"
+#include "scene/triangle_math.h"
+
+namespace photonloupe {
+namespace {
+
+// Farther from the world's zero than this many half diagonals, the origin moves to the scene's center: 2^3, so that
+// at most three of a float's 24 bits go to the offset.
+constexpr double MAX_OFFSET_IN_HALF_DIAGONALS = 8.0;
+
+struct PlacedPrimitive {
+    PrimitiveReader reader;
+    const PlacedNode* node;
+    std::uint32_t object;
+};
+
+struct Counts {
+    std::size_t zero_area = 0;
+    std::size_t flat_primitives = 0;
+    std::size_t replaced_normals = 0;
+    std::size_t turned_normals = 0;
+    std::size_t without_material = 0;
+};
+
+glm::dvec3 transform_point(const glm::dmat4& world, const glm::dvec3& point) {
+    return glm::dvec3(world * glm::dvec4(point, 1.0));
+}
+
+std::vector<PlacedPrimitive> place_primitives(const tinygltf::Model& model, const std::vector<PlacedNode>& nodes,
+                                              Scene& scene, Counts& counts) {
+    std::vector<PlacedPrimitive> placed;
+    for (const PlacedNode& node : nodes) {
+        const int mesh_index = model.nodes[node.node].mesh;
+        if (mesh_index < 0)
+            continue;
+        const tinygltf::Mesh& mesh = model.meshes[std::size_t(mesh_index)];
+        for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+            const tinygltf::Primitive& primitive = mesh.primitives[i];
+            SceneObject object;
+            object.name = name_node(model, node.node, mesh.name, "object");
+            if (mesh.primitives.size() > 1)
+                object.name.append("[").append(std::to_string(i)).append("]");
+            object.material =
+                std::uint32_t(primitive.material < 0 ? model.materials.size() : std::size_t(primitive.material));
+            placed.push_back({PrimitiveReader(model, primitive), &node, std::uint32_t(scene.objects.size())});
+            scene.objects.push_back(std::move(object));
+            counts.without_material += primitive.material < 0;
+            counts.flat_primitives += !placed.back().reader.has_normals();
+        }
+    }
+    return placed;
+}
+
+[[noreturn]] void refuse_coordinates(const Scene& scene, const PlacedPrimitive& primitive) {
+    throw SceneError(scene.path.string() + ": object \"" + scene.objects[primitive.object].name +
+                     "\" has coordinates beyond 1e30, which 32-bit floats can't compute with; scale the scene down");
+}
+
+Bounds find_bounds(const std::vector<PlacedPrimitive>& primitives, const Scene& scene) {
+    constexpr double INFINITE = std::numeric_limits<double>::infinity();
+    Bounds bounds{{INFINITE, INFINITE, INFINITE}, {-INFINITE, -INFINITE, -INFINITE}};
+    for (const PlacedPrimitive& primitive : primitives)
+        for (std::uint32_t i = 0; i < primitive.reader.get_triangle_count(); ++i)
+            for (const std::uint32_t vertex : primitive.reader.read_corners(i)) {
+                const glm::dvec3 p = transform_point(primitive.node->world, primitive.reader.read_position(vertex));
+                for (int axis = 0; axis < 3; ++axis) {
+                    if (!std::isfinite(p[axis]))
+                        refuse_coordinates(scene, primitive);
+                    bounds.lo[std::size_t(axis)] = std::min(bounds.lo[std::size_t(axis)], p[axis]);
+                    bounds.hi[std::size_t(axis)] = std::max(bounds.hi[std::size_t(axis)], p[axis]);
+                }
+            }
+    return bounds.lo[0] <= bounds.hi[0] ? bounds : Bounds{};
+}
+
+std::array<double, 3> choose_origin(const Bounds& bounds) {
+    std::array<double, 3> center{};
+    double distance_squared = 0.0, half_diagonal_squared = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        center[axis] = bounds.lo[axis] / 2 + bounds.hi[axis] / 2;
+        const double half = bounds.hi[axis] / 2 - bounds.lo[axis] / 2;
+        distance_squared += center[axis] * center[axis];
+        half_diagonal_squared += half * half;
+    }
+    constexpr double LIMIT = MAX_OFFSET_IN_HALF_DIAGONALS * MAX_OFFSET_IN_HALF_DIAGONALS;
+    return distance_squared > LIMIT * half_diagonal_squared ? center : std::array<double, 3>{};
+}
+
+// Corners in the order that keeps the outside outside when the node mirrors.
+std::array<std::uint32_t, 3> read_turned_corners(const PrimitiveReader& reader, std::uint32_t i, bool is_mirrored) {
+    std::array<std::uint32_t, 3> corners = reader.read_corners(i);
+    if (is_mirrored)
+        std::swap(corners[1], corners[2]);
+    return corners;
+}
+
+class TriangleWriter {
+public:
+    TriangleWriter(Scene& scene, Counts& counts) : m_scene(scene), m_counts(counts) {}
+
+    void write_primitive(const PlacedPrimitive& primitive) {
+        const NormalTransform transform(glm::dmat3(primitive.node->world));
+        for (std::uint32_t i = 0; i < primitive.reader.get_triangle_count(); ++i) {
+            const auto corners = read_turned_corners(primitive.reader, i, transform.is_mirrored());
+            write_triangle(primitive, transform, corners, i);
+        }
+    }
+
+private:
+    void write_triangle(const PlacedPrimitive& primitive, const NormalTransform& transform,
+                        const std::array<std::uint32_t, 3>& corners, std::uint32_t source) {
+        std::array<glm::vec3, 3> v;
+        for (int i = 0; i < 3; ++i)
+            v[std::size_t(i)] = round_position(primitive, corners[std::size_t(i)]);
+        const glm::dvec3 area = compute_area_vector(v[0], v[1], v[2]);
+        const std::optional<glm::dvec3> geometric = normalize_robustly(area);
+        if (!geometric) {
+            ++m_counts.zero_area;
+            return;
+        }
+        SceneObject& object = m_scene.objects[primitive.object];
+        ++object.triangle_count;
+        m_scene.triangles.push_back({{v[0], std::bit_cast<float>(primitive.object)},
+                                     {v[1], std::bit_cast<float>(object.material)},
+                                     {v[2], std::bit_cast<float>(source)}});
+        write_normals(primitive.reader, transform, corners, *geometric);
+    }
+
+    glm::vec3 round_position(const PlacedPrimitive& primitive, std::uint32_t vertex) const {
+        const glm::dvec3 p = transform_point(primitive.node->world, primitive.reader.read_position(vertex));
+        glm::vec3 rounded;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double relative = p[axis] - m_scene.origin[std::size_t(axis)];
+            if (!(std::abs(relative) <= MAX_COORDINATE))
+                refuse_coordinates(m_scene, primitive);
+            rounded[axis] = float(relative);
+        }
+        return rounded;
+    }
+
+    void write_normals(const PrimitiveReader& reader, const NormalTransform& transform,
+                       const std::array<std::uint32_t, 3>& corners, const glm::dvec3& geometric) {
+        std::array<glm::dvec3, 3> normals{geometric, geometric, geometric};
+        bool is_turned = false;
+        for (std::size_t i = 0; i < 3 && reader.has_normals(); ++i) {
+            const auto normal = normalize_robustly(transform.apply(reader.read_normal(corners[i])));
+            m_counts.replaced_normals += !normal;
+            normals[i] = normal.value_or(geometric);
+            is_turned |= glm::dot(normals[i], geometric) < 0;
+        }
+        m_counts.turned_normals += is_turned;
+        m_scene.normals.push_back(
+            {{glm::vec3(normals[0]), 0.0f}, {glm::vec3(normals[1]), 0.0f}, {glm::vec3(normals[2]), 0.0f}});
+    }
+
+    Scene& m_scene;
+    Counts& m_counts;
+};
+
+void note(std::vector<std::string>& notes, std::size_t count, const std::string& singular, const std::string& plural) {
+    if (count == 1)
+        notes.push_back("1 " + singular);
+    else if (count > 1)
+        notes.push_back(std::to_string(count) + " " + plural);
+}
+
+void note_counts(const Counts& counts, std::vector<std::string>& notes) {
+    note(notes, counts.zero_area, "triangle of zero area was dropped", "triangles of zero area were dropped");
+    note(notes, counts.flat_primitives, "primitive has no normals and is shaded flat",
+         "primitives have no normals and are shaded flat");
+    note(notes, counts.replaced_normals, "shading normal of zero length was replaced by the geometric normal",
+         "shading normals of zero length were replaced by the geometric normal");
+    note(notes, counts.turned_normals, "triangle has a shading normal on its back side, which was kept",
+         "triangles have a shading normal on their back side, which was kept");
+    note(notes, counts.without_material,
+         "primitive has no material; glTF's default, white metal, makes it a perfect mirror",
+         "primitives have no material; glTF's default, white metal, makes them perfect mirrors");
+}
+
+} // namespace
+
+void load_triangles(const tinygltf::Model& model, const std::vector<PlacedNode>& nodes, Scene& scene) {
+    Counts counts;
+    const std::vector<PlacedPrimitive> primitives = place_primitives(model, nodes, scene, counts);
+    scene.bounds = find_bounds(primitives, scene);
+    scene.origin = choose_origin(scene.bounds);
+    std::size_t triangle_count = 0;
+    for (const PlacedPrimitive& primitive : primitives)
+        triangle_count += primitive.reader.get_triangle_count();
+    scene.triangles.reserve(triangle_count);
+    scene.normals.reserve(triangle_count);
+    TriangleWriter writer(scene, counts);
+    for (const PlacedPrimitive& primitive : primitives)
+        writer.write_primitive(primitive);
+    note_counts(counts, scene.report.notes);
+}
+
+} // namespace photonloupe

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene as a value: what glTF gave us, in world space, ready for the kernels.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "shared/scene.h"
+
+namespace photonloupe {
+
+struct Bounds {
+    std::array<double, 3> lo{};
+    std::array<double, 3> hi{};
+};
+
+// One drawn primitive of one node; `Triangle::v0_object` indexes these.
+struct SceneObject {
+    std::string name;
+    std::uint32_t material = 0;
+    std::uint32_t triangle_count = 0;
+};
+
+// A perspective camera; `right`, `up`, `backward` are the orthonormal world axes of its node (glTF looks along -z).
+struct Camera {
+    std::string name;
+    std::array<double, 3> position{}; // world, not relative to the origin
+    std::array<double, 3> right{1, 0, 0};
+    std::array<double, 3> up{0, 1, 0};
+    std::array<double, 3> backward{0, 0, 1};
+    double yfov = 0.8;    // radians
+    double aspect = 0.0;  // 0: none given
+};
+
+// What the loader understood, and what it left out.
+struct SceneReport {
+    std::vector<std::string> ignored; // features present in the file that nothing models, one sentence each
+    std::vector<std::string> notes;   // what was changed or dropped on the way (degenerate triangles, missing normals …)
+    bool has_mirror = false;
+    bool has_dielectric = false;
+    bool has_thin = false;
+    bool has_absorption = false;
+    bool has_diffuse = false;
+    bool has_emission = false;
+};
+
+struct Scene {
+    std::filesystem::path path;
+    std::string hash; // of the file and every buffer it uses, hex
+    std::array<double, 3> origin{}; // world position of the kernels' (0, 0, 0)
+    Bounds bounds;                  // world
+    std::vector<shared::Triangle> triangles; // in BVH leaf order
+    std::vector<shared::TriangleNormals> normals;
+    std::vector<shared::BvhNode> nodes; // nodes[0] is the root; empty without triangles
+    std::vector<shared::Material> materials;
+    std::vector<std::string> material_names;
+    std::vector<SceneObject> objects;
+    std::vector<shared::Light> lights;
+    std::vector<std::string> light_names;
+    std::vector<Camera> cameras;
+    SceneReport report;
+};
+
+// Reads a .gltf or .glb file behind the project's wall. Throws SceneError with what, where and what to do.
+Scene load_scene(const std::filesystem::path& path);
+
+// What the scene requires of the kernels, and what they leave out for it.
+struct SceneFeatures {
+    std::vector<std::string> required;
+    std::vector<std::string> left_out;
+};
+
+SceneFeatures list_features(const SceneReport& report);
+
+// Human-readable account of the scene: counts, bounds, lights, materials, what is modelled and what was left out.
+std::string describe_scene(const Scene& scene);
+
+} // namespace photonloupe

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene on the device, and which parts of the kernels it requires.
+#pragma once
+
+#include "gpu/buffer.h"
+#include "scene/scene.h"
+
+namespace photonloupe {
+
+struct SceneBuffers {
+    gpu::Buffer nodes;
+    gpu::Buffer triangles;
+    gpu::Buffer normals;
+    gpu::Buffer materials;
+    gpu::Buffer lights;
+};
+
+SceneBuffers upload_scene(gpu::Device& device, const Scene& scene);
+
+// Defines for kernels that follow rays: only what the scene contains is compiled in.
+std::vector<std::string> list_scene_defines(const Scene& scene);
+
+} // namespace photonloupe

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Photon Loupe: photon mapping as data — load, trace, render, inspect, save.
+
+Lengths are metres, irradiance W/m², radiance W/(m²·sr); axes are glTF's (y up).
+
+Examples
+--------
+>>> import photonloupe as pl
+>>> scene = pl.load_scene("scenes/ring/ring.gltf")
+>>> photons = pl.trace_photons(scene, count=20_000, seed=1)
+>>> pl.render(scene, photons, camera="top", width=64, height=64).save("ring.exr")
+"""
+
+from photonloupe._engine import version as __version__
+from photonloupe.device import Device, devices
+from photonloupe.errors import (
+    ArgumentError,
+    Cancelled,
+    DeviceError,
+    DeviceMemoryError,
+    FileFormatError,
+    PhotonLoupeError,
+    SceneError,
+    ScriptError,
+)
+from photonloupe.image import Image, load_image
+from photonloupe.metrics import ImageDifference, compare_images
+from photonloupe.photons import PhotonMap, load_photons
+from photonloupe.rendering import render
+from photonloupe.scene import Scene, load_scene
+from photonloupe.tracing import trace_photons
+
+__all__ = [
+    "ArgumentError",
+    "Cancelled",
+    "Device",
+    "DeviceError",
+    "DeviceMemoryError",
+    "FileFormatError",
+    "Image",
+    "ImageDifference",
+    "PhotonLoupeError",
+    "PhotonMap",
+    "Scene",
+    "SceneError",
+    "ScriptError",
+    "__version__",
+    "compare_images",
+    "devices",
+    "load_image",
+    "load_photons",
+    "load_scene",
+    "render",
+    "trace_photons",
+]

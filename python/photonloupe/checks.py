@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Checks of arguments that several functions share; each refusal is one sentence."""
+
+from __future__ import annotations
+
+import math
+import operator
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from photonloupe.errors import ArgumentError
+
+
+def check_count(name: str, value: Any, low: int, high: int) -> int:
+    """Return `value` as an int in [`low`, `high`], or raise `ArgumentError`."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise ArgumentError(f"{name} must be a whole number, not {value!r}") from None
+    if isinstance(value, bool) or not low <= number <= high:
+        raise ArgumentError(f"{name} must be from {low} to {high}, not {value!r}")
+    return number
+
+
+def check_number(name: str, value: Any, low: float, high: float) -> float:
+    """Return `value` as a finite float in [`low`, `high`], or raise `ArgumentError`."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise ArgumentError(f"{name} must be a number, not {value!r}") from None
+    if not (math.isfinite(number) and low <= number <= high):
+        raise ArgumentError(f"{name} must be from {low:g} to {high:g}, not {value!r}")
+    return number
+
+
+def check_choice(name: str, value: Any, choices: Iterable[str]) -> str:
+    """Return `value` if it is one of `choices`, or raise `ArgumentError` that names them."""
+    known = tuple(choices)
+    if value not in known:
+        raise ArgumentError(f"{name} must be one of {', '.join(known)}, not {value!r}")
+    return str(value)
+
+
+def check_vectors(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    """Return `values` as finite (n, 3) float64, or raise `ArgumentError` naming the first bad row."""
+    try:
+        array = np.ascontiguousarray(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise ArgumentError(f"{name} must be numbers of shape (n, 3)") from None
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise ArgumentError(f"{name} must have shape (n, 3), not {array.shape}")
+    check_finite(name, array)
+    return array
+
+
+def check_finite(name: str, array: NDArray[Any]) -> None:
+    """Raise `ArgumentError` that names the first row of `array` with a NaN or an infinity."""
+    finite = np.isfinite(array)
+    if finite.all():
+        return
+    place = np.unravel_index(int(np.argmin(finite)), array.shape)
+    row = "".join(f"[{int(i)}]" for i in place)
+    kind = "NaN" if np.isnan(array[place]) else "infinite"
+    raise ArgumentError(f"{name}{row} is {kind}; remove or replace that row")

@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: Apache-2.0
+"""``photonloupe render``: trace a scene, render it, write the picture."""
+
+from __future__ import annotations
+
+import argparse
+
+import photonloupe as pl
+from photonloupe.checks import check_number
+from photonloupe.cli.common import (
+    EXIT_OK,
+    QUALITIES,
+    Stopwatch,
+    add_device_option,
+    add_photon_options,
+    choose_progress,
+    print_result,
+)
+from photonloupe.device import open_device
+from photonloupe.image import MAX_EXPOSURE, check_image_path
+from photonloupe.rendering import MODES
+
+SUMMARY = "trace a scene and render it"
+DESCRIPTION = "Trace photons through a glTF scene, gather them, and write an .exr (linear radiance) or a .png."
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the verb's options."""
+    parser.add_argument("scene", metavar="SCENE", help=".gltf or .glb")
+    parser.add_argument("-o", "--output", required=True, metavar="FILE", help=".exr or .png")
+    add_photon_options(parser, None)
+    parser.add_argument("--k", type=int, metavar="N", help="photons in an estimate, 1 to 1000")
+    parser.add_argument("--width", type=int, default=512, metavar="N", help="pixels; default 512")
+    parser.add_argument("--height", type=int, default=512, metavar="N", help="pixels; default 512")
+    parser.add_argument("--samples", type=int, metavar="N", help="per pixel")
+    parser.add_argument("--camera", metavar="NAME", help="default: the scene's first")
+    parser.add_argument("--mode", choices=MODES, default="composite", help="default composite")
+    parser.add_argument(
+        "--quality",
+        choices=tuple(QUALITIES),
+        default="balanced",
+        help="sets --photons, --samples and --k where they are not given; default balanced",
+    )
+    parser.add_argument("--exposure", type=float, default=0.0, metavar="STOPS", help="of a .png; default 0")
+    add_device_option(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Run the verb."""
+    output = check_image_path(arguments.output)
+    exposure = check_number("--exposure", arguments.exposure, -MAX_EXPOSURE, MAX_EXPOSURE)
+    quality = QUALITIES[arguments.quality]
+    count = quality.photons if arguments.photons is None else arguments.photons
+    watch = Stopwatch()
+    progress = choose_progress()
+    with watch.measure("load"):
+        scene = pl.load_scene(arguments.scene)
+    with watch.measure("device"):
+        device = open_device(arguments.device)
+    photons = None
+    if arguments.mode != "direct":
+        with watch.measure("trace"):
+            photons = pl.trace_photons(scene, count, seed=arguments.seed, device=device, progress=progress)
+    with watch.measure("render"):
+        image = pl.render(
+            scene,
+            photons,
+            camera=arguments.camera,
+            width=arguments.width,
+            height=arguments.height,
+            samples=quality.samples if arguments.samples is None else arguments.samples,
+            mode=arguments.mode,
+            k=quality.k if arguments.k is None else arguments.k,
+            seed=arguments.seed,
+            device=device,
+            progress=progress,
+        )
+    with watch.measure("save"):
+        image.save(output, exposure=exposure)
+    result = {
+        "output": str(output),
+        "width": image.width,
+        "height": image.height,
+        "photons": 0 if photons is None else len(photons),
+        "seconds": watch.seconds,
+        "provenance": image.provenance,
+    }
+    spent = ", ".join(f"{step} {seconds:.2f}" for step, seconds in watch.seconds.items())
+    print_result(
+        arguments,
+        result,
+        [f"{output}: {image.width} × {image.height}, {result['photons']:,} photons; seconds: {spent}"],
+    )
+    return EXIT_OK

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: Apache-2.0
+"""``photonloupe trace``: trace a scene and write the photon map."""
+
+from __future__ import annotations
+
+import argparse
+
+import photonloupe as pl
+from photonloupe.cli.common import (
+    EXIT_OK,
+    Stopwatch,
+    add_device_option,
+    add_photon_options,
+    choose_progress,
+    print_result,
+)
+from photonloupe.columns import PATH_NAMES
+from photonloupe.device import open_device
+from photonloupe.storage import check_map_path
+from photonloupe.tracing import EMISSIONS, STORES
+
+SUMMARY = "trace a scene and write a photon map"
+DESCRIPTION = "Trace photons through a glTF scene and write them with their columns as a Zarr v3 folder."
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the verb's options."""
+    parser.add_argument("scene", metavar="SCENE", help=".gltf or .glb")
+    parser.add_argument("-o", "--output", required=True, metavar="MAP", help="the .zarr folder to write")
+    add_photon_options(parser, 200_000)
+    parser.add_argument("--emitted", type=int, metavar="N", help="number emitted, instead of --photons")
+    parser.add_argument(
+        "--columns",
+        default="",
+        metavar="A,B",
+        help=f"paths to record: 'paths' for all, or any of {', '.join(PATH_NAMES)}; default none",
+    )
+    parser.add_argument("--store", choices=STORES, default="caustic", help="default caustic")
+    parser.add_argument("--emission", choices=EMISSIONS, default="sobol", help="default sobol")
+    parser.add_argument("--max-bounces", type=int, default=16, metavar="N", help="1 to 64; default 16")
+    add_device_option(parser)
+
+
+def _parse_columns(text: str) -> list[str]:
+    names = [name.strip() for name in text.split(",") if name.strip()]
+    return [column for name in names for column in (PATH_NAMES if name == "paths" else (name,))]
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Run the verb."""
+    check_map_path(arguments.output)
+    watch = Stopwatch()
+    with watch.measure("load"):
+        scene = pl.load_scene(arguments.scene)
+    with watch.measure("device"):
+        device = open_device(arguments.device)
+    with watch.measure("trace"):
+        photons = pl.trace_photons(
+            scene,
+            arguments.photons,
+            seed=arguments.seed,
+            emitted=arguments.emitted,
+            emission=arguments.emission,
+            store=arguments.store,
+            max_bounces=arguments.max_bounces,
+            columns=_parse_columns(arguments.columns),
+            device=device,
+            progress=choose_progress(),
+        )
+    with watch.measure("save"):
+        photons.save(arguments.output)
+    result = {
+        "output": arguments.output,
+        "photons": len(photons),
+        "emitted": photons.emitted,
+        "total_flux": photons.total_flux,
+        "columns": photons.recorded,
+        "report": photons.report,
+        "seconds": watch.seconds,
+        "provenance": photons.provenance,
+    }
+    flux = ", ".join(f"{value:.6g}" for value in photons.total_flux)
+    lines = [
+        f"{arguments.output}: {len(photons):,} photons of {photons.emitted:,} emitted, flux ({flux}) W",
+        f"columns: {', '.join(photons.recorded)}",
+        "seconds: " + ", ".join(f"{step} {seconds:.2f}" for step, seconds in watch.seconds.items()),
+    ]
+    print_result(arguments, result, lines)
+    return EXIT_OK

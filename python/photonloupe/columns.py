@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The photon map's columns: their names, types and shapes, and the checks a user's own arrays must pass."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from photonloupe.checks import check_finite
+from photonloupe.errors import ArgumentError
+
+Columns = dict[str, NDArray[Any]]
+
+
+@dataclass(frozen=True)
+class Column:
+    """One column: `width` 0 is one value a row; rows belong to photons or to the vertices of their paths."""
+
+    name: str
+    dtype: str
+    width: int = 0
+    of_vertices: bool = False
+    low: float | None = None
+    high: float | None = None
+
+
+PHOTON_COLUMNS = (
+    Column("positions", "f4", 3),
+    Column("normals", "f4", 3),
+    Column("power", "f4", 3, low=0.0),
+    Column("emitter", "i4", low=0),
+    Column("emitted_index", "u8", low=0),
+    Column("object", "i4", low=-1),
+)
+PATH_COLUMNS = (
+    Column("path_vertices", "f4", 3, of_vertices=True),
+    Column("path_normals", "f4", 3, of_vertices=True),
+    Column("path_interactions", "u1", of_vertices=True, low=0, high=2),
+    Column("path_objects", "i4", of_vertices=True, low=-1),
+    Column("path_scatter", "f4", of_vertices=True, low=0.0, high=1.0),
+)
+PATH_OFFSETS = Column("path_offsets", "i8")
+ALL_COLUMNS = {column.name: column for column in (*PHOTON_COLUMNS, PATH_OFFSETS, *PATH_COLUMNS)}
+PATH_NAMES = (PATH_OFFSETS.name, *(column.name for column in PATH_COLUMNS))
+REQUIRED = ("positions", "normals", "power")
+
+# Photon ids are 32-bit signed in every neighbor list.
+MAX_PHOTONS = 2**31 - 1
+# Normals written as text with four digits still pass.
+_UNIT_TOLERANCE = 1e-3
+# A map without objects says so in every row.
+NO_OBJECT = -1
+
+
+def _convert(column: Column, values: ArrayLike) -> NDArray[Any]:
+    """Convert to the column's type, refusing what would lose its meaning."""
+    try:
+        given = np.asarray(values)
+    except ValueError:
+        raise ArgumentError(f"{column.name} is not a rectangular array") from None
+    shape = f"(n, {column.width})" if column.width else "(n,)"
+    if given.ndim != (2 if column.width else 1) or (column.width and given.shape[1] != column.width):
+        raise ArgumentError(f"{column.name} must have shape {shape}, not {given.shape}")
+    if given.dtype.kind not in "fiu":
+        raise ArgumentError(f"{column.name} must hold numbers, not {given.dtype}")
+    dtype = np.dtype(column.dtype)
+    if given.dtype.kind == "f":
+        check_finite(column.name, given)
+    if dtype.kind in "iu":
+        info = np.iinfo(dtype)
+        with np.errstate(invalid="ignore"):
+            whole = given == np.trunc(given) if given.dtype.kind == "f" else np.ones(given.shape, dtype=bool)
+        _refuse_rows(column.name, ~whole, given, "is not a whole number")
+        outside = (given < info.min) | (given > info.max)
+        _refuse_rows(column.name, outside, given, f"does not fit {dtype.name}")
+    with np.errstate(over="ignore"):
+        # A copy: the map must not change when the caller's array does.
+        array = np.array(given, dtype=dtype, order="C", copy=True)
+    if dtype.kind == "f":
+        _refuse_rows(column.name, ~np.isfinite(array), given, "does not fit a 32-bit float")
+    if column.low is not None:
+        _refuse_rows(column.name, array < column.low, given, f"is below {column.low:g}")
+    if column.high is not None:
+        _refuse_rows(column.name, array > column.high, given, f"is above {column.high:g}")
+    return array
+
+
+def _refuse_rows(name: str, bad: NDArray[np.bool_], values: NDArray[Any], why: str) -> None:
+    if not bad.any():
+        return
+    place = np.unravel_index(int(np.argmax(bad)), bad.shape)
+    row = "".join(f"[{int(i)}]" for i in place)
+    raise ArgumentError(f"{name}{row} = {values[place]} {why}")
+
+
+def _check_offsets(columns: Columns, photon_count: int) -> None:
+    offsets = columns["path_offsets"]
+    vertex_count = len(columns["path_vertices"])
+    if len(offsets) != photon_count + 1:
+        raise ArgumentError(
+            f"path_offsets must have {photon_count + 1} entries, one more than photons, not {len(offsets)}"
+        )
+    if offsets[0] != 0 or offsets[-1] != vertex_count:
+        raise ArgumentError(
+            f"path_offsets must run from 0 to the number of vertices {vertex_count}, "
+            f"not from {offsets[0]} to {offsets[-1]}"
+        )
+    _refuse_rows("path_offsets", np.diff(offsets, prepend=offsets[:1]) < 0, offsets, "is less than the one before it")
+
+
+def check_columns(given: Mapping[str, ArrayLike | None]) -> Columns:
+    """Check a user's columns and bring them to their types.
+
+    Parameters
+    ----------
+    given
+        Arrays by column name; None counts as absent. Required: positions, normals, power.
+
+    Returns
+    -------
+    dict
+        C-contiguous arrays of the types in `ALL_COLUMNS`, the photon columns all present.
+
+    Raises
+    ------
+    ArgumentError
+        Naming the column, and the row where one is to blame: NaN, infinity, wrong shape or type, a value out of its
+        range, a normal that is not a unit vector, offsets that are not ascending, columns of different lengths.
+    """
+    present = {name: values for name, values in given.items() if values is not None}
+    unknown = sorted(set(present) - set(ALL_COLUMNS))
+    if unknown:
+        raise ArgumentError(f"there is no column {unknown[0]!r}; the columns are {', '.join(ALL_COLUMNS)}")
+    missing = [name for name in REQUIRED if name not in present]
+    if missing:
+        raise ArgumentError(f"the column {missing[0]} is missing")
+    columns = {name: _convert(ALL_COLUMNS[name], values) for name, values in present.items()}
+    count = len(columns["positions"])
+    if count > MAX_PHOTONS:
+        raise ArgumentError(f"a map holds at most {MAX_PHOTONS:,} photons, not {count:,}")
+    columns.setdefault("emitter", np.zeros(count, dtype=np.int32))
+    columns.setdefault("emitted_index", np.arange(count, dtype=np.uint64))
+    columns.setdefault("object", np.full(count, NO_OBJECT, dtype=np.int32))
+    for column in PHOTON_COLUMNS:
+        if len(columns[column.name]) != count:
+            raise ArgumentError(f"{column.name} has {len(columns[column.name])} rows, positions has {count}")
+    length = np.linalg.norm(columns["normals"].astype(np.float64), axis=1)
+    _refuse_rows(
+        "normals", np.abs(length - 1.0) > _UNIT_TOLERANCE, length, "is its length; normals must be unit vectors"
+    )
+    _check_paths(columns, count)
+    return columns
+
+
+def _check_paths(columns: Columns, count: int) -> None:
+    paths = [name for name in PATH_NAMES if name in columns]
+    if not paths:
+        return
+    for name in ("path_offsets", "path_vertices"):
+        if name not in columns:
+            raise ArgumentError(f"the column {name} is missing; {paths[0]} needs it")
+    _check_offsets(columns, count)
+    vertex_count = len(columns["path_vertices"])
+    for column in PATH_COLUMNS:
+        if column.name in columns and len(columns[column.name]) != vertex_count:
+            raise ArgumentError(f"{column.name} has {len(columns[column.name])} rows, path_vertices has {vertex_count}")

@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Writes the study scenes as glTF; the frozen values below are the only record of their dimensions.
+
+Run ``python scenes/generate.py`` to write every scene, or name the ones wanted. NumPy is all it needs,
+and the same version of this file writes the same bytes.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from gltf import (
+    GltfWriter,
+    Vector,
+    build_box,
+    build_cylinder,
+    build_quad,
+    make_diffuse,
+    make_glass,
+    make_mirror,
+)
+
+# From so far up the rim hides only 2.6 % of a radius of floor behind it.
+TOP_CAMERA_HEIGHT = 20.0
+
+
+@dataclass(frozen=True)
+class CylinderScene:
+    """A vertical mirror cylinder about the y axis on a diffuse floor y = 0, lit by one point light."""
+
+    name: str
+    radius: float  # m
+    wall_height: float  # m
+    light: Vector  # m
+    intensity: float  # W/sr
+    mirror_color: Vector  # F0 of Schlick's reflectance
+    floor_half: float  # m
+    floor_reflectance: float
+    window_half: float  # m, what the camera `top` sees of the floor
+    # A facet's middle lies radius·(π/segments)²/2 inside the true circle: 1.4e-7 m at 6,000 — a float's spacing.
+    segments: int = 6000
+    rows: int = 2
+
+    @property
+    def light_distance(self) -> float:
+        """Horizontal distance of the light from the axis, m."""
+        return math.hypot(self.light[0], self.light[2])
+
+
+@dataclass(frozen=True)
+class SlabScene:
+    """A plane-parallel glass slab above a diffuse floor y = 0, a point light on the y axis above it."""
+
+    name: str
+    light_height: float  # m
+    slab_bottom: float  # m
+    slab_top: float  # m
+    slab_half: float  # m
+    ior: float
+    intensity: float  # W/sr
+    floor_half: float  # m; so small that no light that met a side face of the slab reaches it
+    floor_reflectance: float
+    window_half: float  # m
+
+    @property
+    def thickness(self) -> float:
+        """Thickness of the slab, m."""
+        return self.slab_top - self.slab_bottom
+
+
+RING = CylinderScene(
+    name="ring",
+    radius=1.0,
+    wall_height=0.5,
+    light=(0.0, 1.6, 2.0),
+    intensity=10.0,
+    mirror_color=(1.0, 0.78, 0.34),
+    floor_half=4.0,
+    floor_reflectance=0.7,
+    window_half=2.0,
+)
+
+# The light hangs above the rim: then light meets the wall once at most, and none comes off the wall beside it.
+BOWL = CylinderScene(
+    name="bowl",
+    radius=1.0,
+    wall_height=0.4,
+    light=(0.999, 1.2, 0.0),
+    intensity=10.0,
+    mirror_color=(1.0, 1.0, 1.0),
+    floor_half=2.0,
+    floor_reflectance=0.7,
+    window_half=1.1,
+)
+
+SLAB = SlabScene(
+    name="slab",
+    light_height=1.5,
+    slab_bottom=0.3,
+    slab_top=0.5,
+    slab_half=3.0,
+    ior=1.5,
+    intensity=10.0,
+    floor_half=1.5,
+    floor_reflectance=0.7,
+    window_half=1.5,
+)
+
+
+def add_top_camera(writer: GltfWriter, window_half: float) -> None:
+    """Adds `top`: straight down, x to the right, z downward, |x|, |z| <= `window_half` of the floor in the frame."""
+    yfov = 2.0 * math.atan(window_half / TOP_CAMERA_HEIGHT)
+    writer.add_camera("top", (0.0, TOP_CAMERA_HEIGHT, 0.0), (0.0, 0.0, 0.0), yfov, up=(0.0, 0.0, -1.0))
+
+
+def _build_cylinder_scene(scene: CylinderScene, mirror_name: str) -> GltfWriter:
+    writer = GltfWriter(scene.name)
+    wall = build_cylinder(scene.radius, scene.wall_height, scene.segments, scene.rows)
+    writer.add_mesh("wall", wall, make_mirror(mirror_name, scene.mirror_color))
+    writer.add_mesh("floor", build_quad(scene.floor_half), make_diffuse("plaster", scene.floor_reflectance))
+    writer.add_point_light("lamp", scene.light, scene.intensity)
+    add_top_camera(writer, scene.window_half)
+    return writer
+
+
+def build_ring() -> GltfWriter:
+    """Gold ring on a plane, lit from outside and above."""
+    writer = _build_cylinder_scene(RING, "gold")
+    writer.add_camera("view", (2.6, 2.9, 2.9), (0.0, 0.1, -0.05), 0.62)
+    writer.add_camera("close", (0.0, 2.2, 0.9), (0.0, 0.0, -0.35), 0.5)
+    return writer
+
+
+def build_slab() -> GltfWriter:
+    """Glass slab between a light and a plane."""
+    writer = GltfWriter(SLAB.name)
+    half = SLAB.slab_half
+    box = build_box((-half, SLAB.slab_bottom, -half), (half, SLAB.slab_top, half))
+    writer.add_mesh("slab", box, make_glass("glass", SLAB.ior, SLAB.thickness))
+    writer.add_mesh("floor", build_quad(SLAB.floor_half), make_diffuse("plaster", SLAB.floor_reflectance))
+    writer.add_point_light("lamp", (0.0, SLAB.light_height, 0.0), SLAB.intensity)
+    add_top_camera(writer, SLAB.window_half)
+    writer.add_camera("view", (3.2, 2.6, 3.6), (0.0, 0.35, 0.0), 0.75)
+    return writer
+
+
+def build_bowl() -> GltfWriter:
+    """Mirror wall with the light at its rim: the cardioid."""
+    writer = _build_cylinder_scene(BOWL, "mirror")
+    writer.add_camera("view", (-1.7, 2.7, 1.9), (0.1, 0.05, 0.0), 0.68)
+    return writer
+
+
+SCENES: dict[str, Callable[[], GltfWriter]] = {"ring": build_ring, "slab": build_slab, "bowl": build_bowl}
+
+
+def main() -> None:
+    """Writes the scenes named on the command line, all of them by default."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("names", nargs="*", metavar="NAME", help=f"one of {', '.join(SCENES)}; default: all")
+    parser.add_argument("-o", "--output", type=Path, default=Path(__file__).resolve().parent, help="parent folder")
+    arguments = parser.parse_args()
+    unknown = sorted(set(arguments.names) - set(SCENES))
+    if unknown:
+        parser.error(f"no scene named {', '.join(unknown)}; there are {', '.join(SCENES)}")
+    for name in arguments.names or SCENES:
+        writer = SCENES[name]()
+        writer.write(arguments.output / name)
+        print(f"{name}: {len(writer.buffer):,} bytes of geometry")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Averages the samples of each pixel (box filter): emission seen, direct light and the photon map's irradiance.
+// Inputs: hit_weight, direct_irradiance, map_irradiance, eye_emission. Output: film (rgb radiance, W/(m² sr)).
+#include "shared/prelude.glsl"
+#include "shared/render.h"
+#pragma binding readonly vec4 hit_weight
+#pragma binding readonly vec4 direct_irradiance
+#pragma binding readonly vec4 map_irradiance
+#pragma binding readonly vec4 eye_emission
+#pragma binding writeonly vec4 film
+
+layout(push_constant) uniform Push { FilmSettings settings; };
+
+void main() {
+    uint pixel = gl_GlobalInvocationID.x;
+    if (pixel >= settings.pixel_count) return;
+    vec3 sum = vec3(0.0);
+    for (uint i = 0u; i < settings.samples; ++i) {
+        uint index = pixel * settings.samples + i;
+        if (settings.uses_emission != 0u) sum += eye_emission[index].rgb;
+        for (uint slot = 0u; slot < settings.slot_count; ++slot) {
+            uint at = slot * settings.sample_count + index;
+            vec3 weight = hit_weight[at].rgb;
+            if (settings.uses_direct != 0u) sum += weight * direct_irradiance[at].rgb;
+            if (settings.uses_map != 0u) sum += weight * map_irradiance[at].rgb;
+        }
+    }
+    film[settings.first_pixel + pixel] = vec4(sum / float(settings.samples), 1.0);
+}

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// Follows eye paths through mirrors and glass to the diffuse surfaces they see.
+// Inputs: scene. Outputs: per slot hit_point (xyz, w 1: used), hit_normal, hit_weight (rgb: radiance per irradiance);
+// per sample eye_emission (rgb: emitted radiance seen).
+// Dielectrics split into both directions while slots last, then one is chosen at random.
+// Defines: HAS_DIELECTRIC, HAS_MIRROR, HAS_ABSORPTION.
+#include "shared/prelude.glsl"
+#include "shared/random.h"
+#include "shared/render.h"
+#include "scene/scatter.glsl"
+#pragma binding writeonly vec4 hit_point
+#pragma binding writeonly vec4 hit_normal
+#pragma binding writeonly vec4 hit_weight
+#pragma binding writeonly vec4 eye_emission
+
+layout(push_constant) uniform Push { EyeSettings settings; };
+
+const uint LARGEST_SLOT_COUNT = 4u;
+// Branches that carry less than this share of the pixel are dropped by roulette.
+const float SMALL_WEIGHT = 1e-3;
+
+struct Branch {
+    Ray ray;
+    vec3 weight;
+    uint bounce;
+};
+
+Branch waiting[LARGEST_SLOT_COUNT];
+uint waiting_count = 0u;
+uint sample_index;
+uint used_slots = 0u;
+vec3 seen_emission = vec3(0.0);
+
+float draw(uint bounce, uint dimension) {
+    return to_unit_float(random_bits(settings.seed, sample_index, bounce, 16u + dimension + 4u * used_slots));
+}
+
+Branch start_branch() {
+    uint pixel = sample_index / settings.samples;
+    uint within = sample_index % settings.samples;
+    uint scramble = random_bits(settings.seed, pixel, 0xfffffffeu, 0u);
+    float dx = to_unit_float(scramble_owen(sobol_bits(within, 0u), scramble));
+    float dy = to_unit_float(scramble_owen(sobol_bits(within, 1u), scramble ^ 0x9e3779b9u));
+    float x = 2.0 * (float(pixel % settings.width) + dx) / float(settings.width) - 1.0;
+    float y = 1.0 - 2.0 * (float(pixel / settings.width) + dy) / float(settings.height);
+    vec3 direction = normalize_safely(settings.camera.forward.xyz + x * settings.camera.right.xyz + y * settings.camera.up.xyz);
+    return Branch(Ray(settings.camera.position.xyz, direction), vec3(1.0), 0u);
+}
+
+uint locate_slot(uint slot) { return slot * settings.sample_count + sample_index - settings.first_sample; }
+
+void record_hit(Surface surface, vec3 normal, vec3 weight) {
+    if (used_slots >= settings.slot_count) return;
+    uint at = locate_slot(used_slots);
+    hit_point[at] = vec4(leave_surface(surface, normal).origin, 1.0);
+    hit_normal[at] = vec4(normal, 0.0);
+    hit_weight[at] = vec4(weight * surface.material.base_color_metallic.rgb / PI, 1.0);
+    ++used_slots;
+}
+
+void wait_branch(Branch branch) {
+    waiting[waiting_count] = branch;
+    ++waiting_count;
+}
+
+// Follows both directions when a slot is left for each, else one by its probability.
+void split_dielectric(inout Branch branch, Surface surface) {
+    Interface face = meet_dielectric(surface, branch.ray.direction);
+    vec3 tint = surface.material.base_color_metallic.rgb;
+    Branch reflected = Branch(leave_surface(surface, reflect_direction(surface, branch.ray.direction)),
+                              branch.weight * face.reflectance, branch.bounce);
+    Branch transmitted = Branch(leave_surface(surface, face.transmitted),
+                                branch.weight * (1.0 - face.reflectance) * tint, branch.bounce);
+    bool can_split = used_slots + waiting_count + 2u <= settings.slot_count && face.reflectance > 0.0 && face.reflectance < 1.0;
+    if (can_split) {
+        wait_branch(reflected);
+        branch = transmitted;
+    } else if (draw(branch.bounce, 0u) < face.reflectance) {
+        reflected.weight = branch.weight;
+        branch = reflected;
+    } else {
+        transmitted.weight = branch.weight * tint;
+        branch = transmitted;
+    }
+}
+
+// One surface of a branch; false when the branch ends here.
+bool follow_surface(inout Branch branch, Surface surface, float distance) {
+    vec3 normal = face_arrival(surface, branch.ray.direction);
+#ifdef HAS_ABSORPTION
+    branch.weight *= transmit_interior(surface, branch.ray.direction, distance);
+#endif
+    seen_emission += branch.weight * surface.material.emission_transmission.rgb;
+    float diffuse = weigh_diffuse(surface.material);
+    if (diffuse > 0.0) record_hit(surface, normal, branch.weight * diffuse);
+    if (diffuse >= 1.0 || branch.bounce >= settings.max_bounces) return false;
+    float mirror = weigh_mirror(surface.material) / (1.0 - diffuse);
+    branch.weight *= 1.0 - diffuse;
+    bool takes_mirror = mirror >= 1.0 || (mirror > 0.0 && draw(branch.bounce, 1u) < mirror);
+#ifdef HAS_MIRROR
+    if (takes_mirror) {
+        branch.weight *= reflect_schlick(surface.material, -dot(branch.ray.direction, normal));
+        branch.ray = leave_surface(surface, reflect_direction(surface, branch.ray.direction));
+    }
+#endif
+#ifdef HAS_DIELECTRIC
+    if (!takes_mirror) split_dielectric(branch, surface);
+#endif
+    ++branch.bounce;
+    float largest = max(branch.weight.r, max(branch.weight.g, branch.weight.b));
+    if (largest >= SMALL_WEIGHT) return true;
+    if (draw(branch.bounce, 2u) >= largest / SMALL_WEIGHT) return false;
+    branch.weight *= SMALL_WEIGHT / largest;
+    return true;
+}
+
+void main() {
+    if (gl_GlobalInvocationID.x >= settings.sample_count) return;
+    sample_index = settings.first_sample + gl_GlobalInvocationID.x;
+    Branch branch = start_branch();
+    bool alive = true;
+    while (alive) {
+        Hit hit = intersect_scene(branch.ray, INFINITY, false);
+        alive = hit.t < INFINITY && follow_surface(branch, load_surface(hit), hit.t);
+        if (!alive && waiting_count > 0u) {
+            --waiting_count;
+            branch = waiting[waiting_count];
+            alive = true;
+        }
+    }
+    for (uint slot = used_slots; slot < settings.slot_count; ++slot) {
+        hit_point[locate_slot(slot)] = vec4(0.0);
+        hit_normal[locate_slot(slot)] = vec4(0.0);
+        hit_weight[locate_slot(slot)] = vec4(0.0);
+    }
+    eye_emission[gl_GlobalInvocationID.x] = vec4(seen_emission, 0.0);
+}

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a node of the complete kd-tree begins: floor(n j / 2^level), without overflow.
+#include "shared/photons.h"
+
+uint find_first_position(uint photon_count, uint node, uint level) {
+    uint high, low;
+    umulExtended(photon_count, node, high, low);
+    return level == 0u ? low : (high << (32u - level)) | (low >> level);
+}
+
+// Level of a heap index.
+uint find_level(uint heap_index) { return uint(findMSB(heap_index)); }

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Our own elementary functions, because drivers' are off by up to 4e-4: each states its error, which the tests measure.
+
+// The classic pair of polynomials on [-π/4, π/4] (Cephes sinf/cosf), after a three-part Cody-Waite reduction.
+// Error below 2 ulp of 1 for |x| ≤ 8192.
+void sin_cos(float x, out float s, out float c) {
+    precise float n = round(x * 0.63661977236758134308);
+    precise float r = x - n * 1.5703125;
+    r = r - n * 4.837512969970703125e-4;
+    r = r - n * 7.54978995489188216e-8;
+    precise float z = r * r;
+    precise float sine = ((-1.9515295891e-4 * z + 8.3321608736e-3) * z - 1.6666654611e-1) * z * r + r;
+    precise float cosine = ((2.443315711809948e-5 * z - 1.388731625493765e-3) * z + 4.166664568298827e-2) * z * z - 0.5 * z + 1.0;
+    uint quadrant = uint(int(n)) & 3u;
+    s = (quadrant & 1u) == 0u ? sine : cosine;
+    c = (quadrant & 1u) == 0u ? cosine : sine;
+    if (quadrant == 1u || quadrant == 2u) c = -c;
+    if (quadrant >= 2u) s = -s;
+}
+
+// asin on [0, 0.5] (Cephes asinf): error below 2 ulp.
+float asin_core(float x) {
+    precise float z = x * x;
+    return ((((4.2163199048e-2 * z + 2.4181311049e-2) * z + 4.5470025998e-2) * z + 7.4953002686e-2) * z + 1.6666752422e-1) * z * x + x;
+}
+
+// acos(x) for |x| ≤ 1, NaN beyond. Error below 4 ulp of the result.
+float acos_exact(float x) {
+    float a = abs(x);
+    if (!(a <= 1.0)) return uintBitsToFloat(0x7fc00000u);
+    if (a <= 0.5) return 1.57079632679489661923 - (x < 0.0 ? -asin_core(a) : asin_core(a));
+    float half_angle = 2.0 * asin_core(sqrt(0.5 * (1.0 - a)));
+    return x < 0.0 ? PI - half_angle : half_angle;
+}
+
+// e^x (Cephes expf): error below 2 ulp, 0 below -104, inf above 88.8.
+float exp_exact(float x) {
+    if (!(x == x)) return x;
+    if (x > 88.8) return INFINITY;
+    if (x < -104.0) return 0.0;
+    precise float n = floor(1.44269504088896341 * x + 0.5);
+    precise float r = x - n * 0.693359375;
+    r = r - n * -2.12194440e-4;
+    precise float z = r * r;
+    precise float p = (((((1.9875691500e-4 * r + 1.3981999507e-3) * r + 8.3334519073e-3) * r + 4.1665795894e-2) * r + 1.6666665459e-1) * r + 5.0000001201e-1) * z + r + 1.0;
+    // Two factors, so that results in the denormal range are still reached.
+    int whole = int(n);
+    int half_power = whole / 2;
+    return p * uintBitsToFloat(uint(half_power + 127) << 23) * uintBitsToFloat(uint(whole - half_power + 127) << 23);
+}
+
+// Unit vector without under- or overflow: the largest component is scaled to 1 first. Zero stays zero.
+vec3 normalize_safely(vec3 v) {
+    float largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
+    if (!(largest > 0.0)) return vec3(0.0);
+    vec3 w = v / largest;
+    return w / sqrt(dot(w, w));
+}
+
+float square(float x) { return x * x; }

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the photon-map kernels and the host exchange: tree layout, neighbour queries.
+#ifndef PHOTONLOUPE_SHARED_PHOTONS_H
+#define PHOTONLOUPE_SHARED_PHOTONS_H
+
+#include "shared/types.h"
+
+SHARED_BEGIN
+
+// The kd-tree is complete: node 1 is the root, node i has children 2i and 2i + 1, and node j of level l (heap index
+// 2^l + j) owns the tree positions floor(n j / 2^l) … floor(n (j + 1) / 2^l) - 1. Leaves hold 16 to 32 photons.
+const uint TREE_LEAF_PHOTONS = 32u;
+// Levels a traversal descends at once: one lane tests one of 2^3 descendants.
+const uint TREE_STEP_LEVELS = 3u;
+const uint TREE_FANOUT = 8u;
+// Entries of the traversal stack: at most 7 wait per step of three levels, 27 levels.
+const uint TREE_STACK_SIZE = 72u;
+
+// A node's tight box and how it is split.
+struct TreeNode {
+    vec4 lo_split; // xyz lower corner, w split value
+    vec4 hi_axis;  // xyz upper corner, w bits: split axis, 3 for a leaf
+};
+
+struct TreeBuild {
+    uint photon_count;
+    uint leaf_level;
+    uint root_level;  // each workgroup owns the subtree of one node of this level …
+    uint root_first;  // … counted from this one
+    uint last_level;  // levels root_level … last_level are built by this dispatch
+};
+
+struct NeighborQuery {
+    uint first;
+    uint count;
+    uint photon_count;
+    uint leaf_level;
+    uint k;
+    uint queries_per_group;
+    uint exclude_self; // the query's w holds the id of a photon that is not its own neighbour
+    float flatness;    // irradiance: largest height above the tangent plane, as a share of r; 0: no test
+};
+
+// Kernels of density estimation (METHODS §2).
+const uint KERNEL_EPANECHNIKOV = 0u;
+const uint KERNEL_DISC = 1u;
+const uint KERNEL_CONE = 2u;
+const uint KERNEL_GAUSSIAN = 3u;
+
+SHARED_END
+
+#endif

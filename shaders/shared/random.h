@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Counter-based random numbers: every number is a function of (seed, emitted index, bounce, dimension) and of nothing
+// else. One text for C++ and GLSL. Hash: pcg4d (Jarzynski and Olano 2020); Sobol: Owen-scrambled by a hash
+// (Laine and Karras 2011, constants of Burley 2020).
+#ifndef PHOTONLOUPE_SHARED_RANDOM_H
+#define PHOTONLOUPE_SHARED_RANDOM_H
+
+#include "shared/types.h"
+
+SHARED_BEGIN
+
+SHARED_INLINE uvec4 hash_pcg4d(uvec4 v) {
+    v = v * 1664525u + 1013904223u;
+    v.x += v.y * v.w;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    v.w += v.y * v.z;
+    v = v ^ (v >> 16u);
+    v.x += v.y * v.w;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    v.w += v.y * v.z;
+    return v;
+}
+
+// Uniform 32-bit word.
+SHARED_INLINE uint random_bits(uint seed, uint index, uint bounce, uint dimension) {
+    return hash_pcg4d(uvec4(index, bounce, dimension, seed)).x;
+}
+
+// Uniform in [0, 1): the upper 24 bits, so that the conversion is exact.
+SHARED_INLINE float to_unit_float(uint bits) { return float(bits >> 8u) * (1.0f / 16777216.0f); }
+
+SHARED_INLINE uint reverse_bits(uint x) {
+    x = ((x >> 1u) & 0x55555555u) | ((x & 0x55555555u) << 1u);
+    x = ((x >> 2u) & 0x33333333u) | ((x & 0x33333333u) << 2u);
+    x = ((x >> 4u) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4u);
+    x = ((x >> 8u) & 0x00ff00ffu) | ((x & 0x00ff00ffu) << 8u);
+    return (x >> 16u) | (x << 16u);
+}
+
+// Owen scrambling of a 32-bit fraction: each bit is flipped by a hash of the bits above it.
+SHARED_INLINE uint scramble_owen(uint x, uint seed) {
+    x = reverse_bits(x);
+    x ^= x * 0x3d20adeau;
+    x += seed;
+    x *= (seed >> 16u) | 1u;
+    x ^= x * 0x05526c56u;
+    x ^= x * 0x53a22864u;
+    return reverse_bits(x);
+}
+
+// The first three dimensions of the Sobol sequence as 32-bit fractions; generator matrices built column by column
+// from their recurrences (dimension 0: van der Corput; 1: x + 1; 2: x² + x + 1 with m = 1, 3).
+SHARED_INLINE uint sobol_bits(uint index, uint dimension) {
+    if (dimension == 0u)
+        return reverse_bits(index);
+    uint result = 0u;
+    if (dimension == 1u) {
+        for (uint column = 0x80000000u; index != 0u; index >>= 1u, column ^= column >> 1u)
+            if ((index & 1u) != 0u)
+                result ^= column;
+        return result;
+    }
+    uint older = 0x80000000u;
+    uint newer = 0xc0000000u;
+    for (; index != 0u; index >>= 1u) {
+        if ((index & 1u) != 0u)
+            result ^= older;
+        uint next = newer ^ older ^ (older >> 2u);
+        older = newer;
+        newer = next;
+    }
+    return result;
+}
+
+SHARED_INLINE uint sample_sobol(uint seed, uint index, uint dimension) {
+    return scramble_owen(sobol_bits(index, dimension), random_bits(seed, 0xffffffffu, 0xffffffffu, dimension));
+}
+
+SHARED_END
+
+#endif

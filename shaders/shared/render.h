@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the rendering kernels and the host exchange: camera, chunk of samples, what is summed.
+#ifndef PHOTONLOUPE_SHARED_RENDER_H
+#define PHOTONLOUPE_SHARED_RENDER_H
+
+#include "shared/types.h"
+
+SHARED_BEGIN
+
+// Camera in map coordinates; `right` and `up` reach from the image's center to its borders at distance 1.
+struct CameraFrame {
+    vec4 position;
+    vec4 right;
+    vec4 up;
+    vec4 forward;
+};
+
+struct EyeSettings {
+    CameraFrame camera;
+    uint first_sample;  // sample = pixel · samples + index within the pixel
+    uint sample_count;  // in this chunk
+    uint width;
+    uint height;
+    uint samples;       // per pixel
+    uint seed;
+    uint slot_count;    // diffuse hits one sample may have
+    uint max_bounces;
+};
+
+struct FilmSettings {
+    uint first_pixel;
+    uint pixel_count;
+    uint samples;
+    uint slot_count;
+    uint sample_count;  // stride between the slots of one sample
+    uint light_count;
+    uint uses_map;
+    uint uses_direct;
+    uint uses_emission;
+    uint pad0;
+    uint pad1;
+    uint pad2;
+};
+
+struct PlotSettings {
+    CameraFrame camera;
+    uint first;
+    uint count;
+    uint width;
+    uint height;
+    float per_mean_flux; // 1 / mean photon flux (largest channel)
+    uint pad0;
+    uint pad1;
+    uint pad2;
+};
+
+// Fixed-point unit of the photon plot: integer sums do not depend on the order of additions.
+const float PLOT_UNIT = 256.0f;
+
+SHARED_END
+
+#endif

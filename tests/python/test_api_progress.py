@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Long work tells how far it is and stops when asked to."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import photonloupe as pl
+from photonloupe.progress import ProgressBar
+
+# Says when tracing is under way, so that the interrupt arrives in the middle of it.
+INTERRUPTED = """
+import sys
+import photonloupe as pl
+said = False
+def progress(stage, fraction):
+    global said
+    if not said:
+        print("tracing", flush=True)
+        said = True
+try:
+    pl.trace_photons(pl.load_scene(sys.argv[1]), 20_000_000, progress=progress)
+except (KeyboardInterrupt, pl.Cancelled):
+    print("interrupted")
+"""
+
+
+def test_callback_hears_of_the_stage(ring: pl.Scene) -> None:
+    heard: list[tuple[str, float]] = []
+    pl.trace_photons(ring, 50_000, progress=lambda stage, fraction: heard.append((stage, fraction)))
+    assert heard
+    assert all(0.0 <= fraction <= 1.0 for _, fraction in heard)
+
+
+def test_false_stops_tracing(ring: pl.Scene) -> None:
+    with pytest.raises(pl.Cancelled):
+        pl.trace_photons(ring, 5_000_000, progress=lambda stage, fraction: False)
+
+
+def test_error_in_the_callback_comes_through(ring: pl.Scene) -> None:
+    def fail(stage: str, fraction: float) -> None:
+        raise LookupError("mine")
+
+    with pytest.raises(LookupError, match="mine"):
+        pl.trace_photons(ring, 5_000_000, progress=fail)
+
+
+def test_false_stops_rendering(ring: pl.Scene, ring_map: pl.PhotonMap) -> None:
+    with pytest.raises(pl.Cancelled):
+        pl.render(ring, ring_map, width=512, height=512, samples=64, progress=lambda stage, fraction: False)
+
+
+def test_work_after_a_stop_is_whole(ring: pl.Scene) -> None:
+    whole = pl.trace_photons(ring, 10_000, seed=9)
+    with pytest.raises(pl.Cancelled):
+        pl.trace_photons(ring, 10_000_000, seed=9, progress=lambda stage, fraction: False)
+    np.testing.assert_array_equal(pl.trace_photons(ring, 10_000, seed=9).positions, whole.positions)
+
+
+def test_interrupt_stops_tracing(ring_path: os.PathLike[str]) -> None:
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(path for path in sys.path if path)}
+    command = [sys.executable, "-c", INTERRUPTED, os.fspath(ring_path)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as process:
+        assert process.stdout is not None
+        assert process.stdout.readline() == "tracing\n"
+        process.send_signal(signal.SIGINT)
+        assert process.stdout.readline() == "interrupted\n"
+        assert process.wait(timeout=30) == 0
+
+
+def test_bar_never_asks_to_stop(capsys: pytest.CaptureFixture[str]) -> None:
+    bar = ProgressBar()
+    assert bar("trace", 0.5)
+    bar.close()
+    assert "trace" in capsys.readouterr().err
+
+
+def test_true_shows_a_bar(ring: pl.Scene, capsys: pytest.CaptureFixture[str]) -> None:
+    pl.trace_photons(ring, 10_000, progress=True)
+    assert "left" in capsys.readouterr().err

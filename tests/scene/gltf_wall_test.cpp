@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// Refusals of documents: versions, extensions, node graphs; and what is listed as ignored.
+#include "scene/gltf_builder.h"
+
+#include <gtest/gtest.h>
+
+namespace photonloupe::test {
+namespace {
+
+Json make_document() {
+    return make_triangle().finish();
+}
+
+std::string refuse_edit(const char* pointer, const Json& value) {
+    Json document = make_document();
+    document[Json::json_pointer(pointer)] = value;
+    return find_refusal(document);
+}
+
+TEST(gltf_wall, other_versions_are_refused) {
+    EXPECT_CONTAINS(refuse_edit("/asset/version", "1.0"), "test.gltf: /asset/version: glTF version \"1.0\"");
+    EXPECT_CONTAINS(refuse_edit("/asset/minVersion", "2.1"), "it needs glTF \"2.1\"");
+    EXPECT_EQ(refuse_edit("/asset/version", "2.1"), "");
+    EXPECT_CONTAINS(find_text_refusal("{}"), "\"asset\" is missing");
+}
+
+TEST(gltf_wall, unknown_required_extensions_are_refused_by_name) {
+    EXPECT_CONTAINS(refuse_edit("/extensionsRequired", Json::array({"KHR_draco_mesh_compression"})),
+                    "the required extension \"KHR_draco_mesh_compression\" is not supported");
+    EXPECT_EQ(refuse_edit("/extensionsRequired",
+                          Json::array({"KHR_lights_punctual", "KHR_materials_transmission", "KHR_materials_volume",
+                                       "KHR_materials_ior", "KHR_materials_emissive_strength"})),
+              "");
+}
+
+TEST(gltf_wall, a_node_that_is_its_own_ancestor_is_refused) {
+    EXPECT_CONTAINS(refuse_edit("/nodes/0/children", Json::array({0})), "/nodes/0: it is its own ancestor");
+    EXPECT_CONTAINS(refuse_edit("/nodes", Json::parse(R"([{"children":[1]},{"children":[2]},{"children":[0]}])")),
+                    "it is its own ancestor");
+}
+
+TEST(gltf_wall, a_node_with_two_parents_is_refused) {
+    EXPECT_CONTAINS(refuse_edit("/nodes", Json::parse(R"([{"children":[2]},{"children":[2]},{}])")),
+                    "/nodes/2: it is a child of node 0 and of node 1");
+}
+
+TEST(gltf_wall, a_scene_that_lists_a_child_or_a_node_twice_is_refused) {
+    Json document = make_document();
+    document["nodes"] = Json::parse(R"([{"children":[1]},{}])");
+    document["scene"] = 0;
+    document["scenes"] = Json::parse(R"([{"nodes":[0,1]}])");
+    EXPECT_CONTAINS(find_refusal(document), "/nodes/1: scene 0 lists it as a root");
+    document["scenes"] = Json::parse(R"([{"nodes":[0,0]}])");
+    EXPECT_CONTAINS(find_refusal(document), "listed twice");
+}
+
+TEST(gltf_wall, nodes_nested_too_deep_are_refused) {
+    Json nodes = Json::array();
+    for (int i = 0; i < 256; ++i)
+        nodes.push_back({{"children", {i + 1}}});
+    nodes.push_back(Json::object());
+    EXPECT_CONTAINS(refuse_edit("/nodes", nodes), "nodes are nested deeper than 256");
+    nodes.erase(256);
+    nodes[255].erase("children");
+    EXPECT_EQ(refuse_edit("/nodes", nodes), "");
+}
+
+TEST(gltf_wall, broken_transforms_are_refused) {
+    EXPECT_CONTAINS(refuse_edit("/nodes/0/scale", Json::array({1, 2})), "an array of 3 numbers was expected");
+    EXPECT_CONTAINS(refuse_edit("/nodes/0/rotation", Json::array({0, 0, 0, 0})), "quaternion of length 0");
+    EXPECT_CONTAINS(refuse_edit("/nodes/0/matrix", std::vector<int>(16, 1)), "not affine");
+    Json document = make_document();
+    document["nodes"][0] = Json::parse(R"({"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1],"scale":[1,1,1]})");
+    EXPECT_CONTAINS(find_refusal(document), "both a matrix and a scale");
+}
+
+TEST(gltf_wall, too_many_images_are_refused) {
+    EXPECT_CONTAINS(refuse_edit("/images", Json(std::vector<Json>(4097, Json::object()))), "at most 4096");
+}
+
+TEST(gltf_wall, material_factors_out_of_range_are_refused) {
+    const auto refuse_material = [](const char* material) {
+        return refuse_edit("/materials", Json::array({Json::parse(material)}));
+    };
+    EXPECT_CONTAINS(refuse_material(R"({"pbrMetallicRoughness":{"metallicFactor":1.5}})"),
+                    "/materials/0/pbrMetallicRoughness/metallicFactor: 1.5 is outside 0.0 … 1.0");
+    EXPECT_CONTAINS(refuse_material(R"({"emissiveFactor":[0,-1,0]})"), "/materials/0/emissiveFactor/1");
+    EXPECT_CONTAINS(refuse_material(R"({"extensions":{"KHR_materials_ior":{"ior":0}}})"), "0.0 is outside 1.0");
+    EXPECT_CONTAINS(refuse_material(R"({"extensions":{"KHR_materials_volume":{"attenuationDistance":0}}})"),
+                    "it must be more than 0");
+    EXPECT_CONTAINS(refuse_material(R"({"extensions":{"KHR_materials_transmission":{"transmissionFactor":"1"}}})"),
+                    "a number was expected");
+}
+
+TEST(gltf_wall, lights_and_cameras_out_of_range_are_refused) {
+    const auto refuse_light = [](const char* light) {
+        return refuse_edit("/extensions/KHR_lights_punctual/lights", Json::array({Json::parse(light)}));
+    };
+    EXPECT_CONTAINS(refuse_light(R"({"type":"point","intensity":-1})"), "intensity: -1.0 is outside");
+    EXPECT_CONTAINS(refuse_light(R"({"type":"point","intensity":1e30,"color":[2,1,1]})"), "beyond the range");
+    EXPECT_CONTAINS(refuse_light(R"({"type":"area"})"), "\"area\" is no kind of light");
+    const auto refuse_camera = [](const char* camera) {
+        return refuse_edit("/cameras", Json::array({Json::parse(camera)}));
+    };
+    EXPECT_CONTAINS(refuse_camera(R"({"type":"perspective"})"), "\"perspective\" is missing");
+    EXPECT_CONTAINS(refuse_camera(R"({"type":"perspective","perspective":{"yfov":0,"znear":1}})"), "more than 0");
+    EXPECT_CONTAINS(refuse_camera(R"({"type":"perspective","perspective":{"yfov":4,"znear":1}})"), "4.0 is outside");
+}
+
+TEST(gltf_wall, text_from_the_file_is_quoted_without_control_characters_and_shortened) {
+    const std::string name = "\x1b[31m" + std::string(1000, 'x');
+    const std::string message = refuse_edit("/extensionsRequired", Json::array({name}));
+    EXPECT_EQ(message.find('\x1b'), std::string::npos);
+    EXPECT_LT(message.size(), 300u);
+}
+
+TEST(gltf_wall, features_that_are_not_modeled_are_listed_by_name) {
+    Json document = make_document();
+    document["images"] = document["textures"] = document["skins"] = document["animations"] =
+        Json::array({Json::object()});
+    document["extensionsUsed"] = Json::array({"KHR_materials_sheen"});
+    document["meshes"][0]["primitives"][0]["targets"] = Json::array();
+    document["meshes"][0]["primitives"].push_back({{"mode", 1}, {"attributes", {{"POSITION", 0}}}});
+    document["materials"] = Json::parse(R"([{"alphaMode":"BLEND","normalTexture":{"index":0,
+        "extensions":{"KHR_texture_transform":{}}}}])");
+    document["cameras"] =
+        Json::parse(R"([{"type":"orthographic","orthographic":{"xmag":1,"ymag":1,"znear":0,"zfar":1}}])");
+    document["extensions"]["KHR_lights_punctual"]["lights"] =
+        Json::parse(R"([{"type":"spot","spot":{}},{"type":"directional"},{"type":"point","range":3}])");
+    document["scenes"] = Json::parse(R"([{"nodes":[0]},{"nodes":[]}])");
+    document["scene"] = 0;
+    const Scene scene = load_document(document);
+    for (const char* feature : {"images: not modeled", "textures: not", "skins: not", "animations: not",
+                                "KHR_materials_sheen", "KHR_texture_transform", "morph targets", "points and lines",
+                                "alpha", "normal textures", "orthographic cameras", "spot lights are not modeled yet",
+                                "directional lights", "range of lights", "only the default scene 0 of 2"})
+        EXPECT_TRUE(contains(scene.report.ignored, feature)) << feature;
+}
+
+} // namespace
+} // namespace photonloupe::test
