@@ -2,8 +2,6 @@
 // Binds engine/photons: columns as NumPy arrays (views where the memory is shared), the tree, neighbours.
 #include "binding.h"
 
-#include <nanobind/stl/optional.h>
-#include <nanobind/stl/shared_ptr.h>
 
 #include "photons/map_columns.h"
 
