@@ -2,47 +2,47 @@
 // Drives the irradiance kernel.
 #include "estimate/estimate_irradiance.h"
 
-#include "gpu/commands.h"
-#include "photons/find_neighbors.h"
+#include "photons/query_tree.h"
 
 namespace photonloupe {
 
 gpu::Buffer estimate_irradiance(gpu::Device& device, const PhotonMap& photons, const KdTree& tree,
-                                const gpu::Buffer& points, const gpu::Buffer& normals, std::uint64_t point_count,
-                                const EstimateSettings& settings, const Progress& progress) {
+                                const gpu::Buffer& points, const gpu::Buffer& normals,
+                                std::span<const std::uint32_t> order, const EstimateSettings& settings,
+                                const Progress& progress) {
     require_k(settings.k);
-    gpu::Buffer irradiance(device, point_count * sizeof(glm::vec4), "irradiance");
+    gpu::Buffer irradiance(device, order.size() * sizeof(glm::vec4), "irradiance");
     if (tree.count == 0) {
         gpu::Commands commands(device, "estimate irradiance");
         commands.fill(irradiance, 0);
         commands.run();
         return irradiance;
     }
-    const gpu::KernelSource kernel{"estimate/estimate_irradiance.comp",
-                                   0,
-                                   {"KERNEL " + std::to_string(static_cast<std::uint32_t>(settings.kernel))},
-                                   {size_list(settings.k + 1)}};
-    gpu::run_in_chunks(device, "estimate irradiance", point_count, QUERIES_PER_GROUP * 16, progress,
-                       [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
-                           const shared::NeighborQuery push{static_cast<std::uint32_t>(first),
-                                                            static_cast<std::uint32_t>(count),
-                                                            static_cast<std::uint32_t>(tree.count),
-                                                            tree.leaf_level,
-                                                            settings.k,
-                                                            QUERIES_PER_GROUP,
-                                                            0,
-                                                            settings.flatness};
-                           const std::uint64_t groups = (count + QUERIES_PER_GROUP - 1) / QUERIES_PER_GROUP;
-                           commands.dispatch(kernel,
-                                             {{"tree_nodes", tree.nodes},
-                                              {"tree_positions", tree.positions},
-                                              {"tree_normals", tree.normals},
-                                              {"power_object", photons.power_object},
-                                              {"query_points", points},
-                                              {"query_normals", normals},
-                                              {"irradiance", irradiance}},
-                                             push, groups * device.limits().subgroup_size);
-                       });
+    const QueryKernels kernels{"estimate/estimate_irradiance.comp",
+                               "estimate/select_irradiance.comp",
+                               {"KERNEL " + std::to_string(static_cast<std::uint32_t>(settings.kernel))},
+                               settings.k + 1};
+    shared::NeighborQuery push{};
+    push.k = settings.k;
+    push.flatness = settings.flatness;
+    run_queries(device, tree, kernels, order, push, "estimate irradiance",
+                [&](gpu::Commands& commands, const gpu::KernelSource& kernel, const QueryBuffers& buffers,
+                    const shared::NeighborQuery& query, std::uint64_t invocations) {
+                    commands.dispatch(kernel,
+                                      {{"tree_nodes", tree.nodes},
+                                       {"tree_positions", tree.positions},
+                                       {"candidates", buffers.candidates},
+                                       {"ranked", buffers.ranked},
+                                       {"unanswered", buffers.unanswered},
+                                       {"tree_normals", tree.normals},
+                                       {"power_object", photons.power_object},
+                                       {"query_points", points},
+                                       {"query_normals", normals},
+                                       {"query_order", buffers.order},
+                                       {"irradiance", irradiance}},
+                                      query, invocations);
+                },
+                progress);
     return irradiance;
 }
 

@@ -24,9 +24,11 @@ struct EstimateSettings {
     float flatness = SURFACE_FLATNESS; // 0: no test
 };
 
-// W/m² at each point (xyz relative to the map's origin, with unit normals); rgb, w unused.
+// W/m² at each point (xyz relative to the map's origin, with unit normals; a zero normal: 0); rgb, w unused.
+// `order` lists all points in the order to visit them (see photons/query_tree.h).
 gpu::Buffer estimate_irradiance(gpu::Device& device, const PhotonMap& photons, const KdTree& tree,
-                                const gpu::Buffer& points, const gpu::Buffer& normals, std::uint64_t point_count,
-                                const EstimateSettings& settings, const Progress& progress = {});
+                                const gpu::Buffer& points, const gpu::Buffer& normals,
+                                std::span<const std::uint32_t> order, const EstimateSettings& settings,
+                                const Progress& progress = {});
 
 } // namespace photonloupe

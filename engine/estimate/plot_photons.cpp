@@ -34,8 +34,7 @@ Image plot_photons(gpu::Device& device, const SceneBuffers& buffers, const Photo
                            push.first = static_cast<std::uint32_t>(first);
                            push.count = static_cast<std::uint32_t>(count);
                            commands.dispatch({"estimate/plot_photons.comp", 64, {}, {}},
-                                             {{"nodes", buffers.nodes},
-                                              {"triangles", buffers.triangles},
+                                             {{"geometry", buffers.geometry},
                                               {"position_emitter", photons.position_emitter},
                                               {"power_object", photons.power_object},
                                               {"plot", plot}},

@@ -7,6 +7,7 @@
 #include "estimate/camera_frame.h"
 #include "estimate/plot_photons.h"
 #include "gpu/commands.h"
+#include "photons/query_tree.h"
 
 namespace photonloupe {
 namespace {
@@ -52,8 +53,7 @@ struct Renderer {
 void Renderer::trace_eye(const FilmScratch& scratch) {
     gpu::Commands commands(device, "trace eye paths");
     commands.dispatch({"estimate/trace_eye.comp", 64, list_scene_defines(scene), {}},
-                      {{"nodes", buffers.nodes},
-                       {"triangles", buffers.triangles},
+                      {{"geometry", buffers.geometry},
                        {"shading_normals", buffers.normals},
                        {"materials", buffers.materials},
                        {"hit_point", scratch.hit_point},
@@ -67,8 +67,7 @@ void Renderer::trace_eye(const FilmScratch& scratch) {
 void Renderer::light_direct(const FilmScratch& scratch) {
     gpu::Commands commands(device, "light directly");
     commands.dispatch({"estimate/light_direct.comp", 64, {}, {}},
-                      {{"nodes", buffers.nodes},
-                       {"triangles", buffers.triangles},
+                      {{"geometry", buffers.geometry},
                        {"lights", buffers.lights},
                        {"hit_point", scratch.hit_point},
                        {"hit_normal", scratch.hit_normal},
@@ -96,7 +95,7 @@ void Renderer::render_chunk(const FilmScratch& scratch) {
     const std::uint64_t slots = std::uint64_t{film_push.sample_count} * film_push.slot_count;
     const gpu::Buffer irradiance =
         film_push.uses_map ? estimate_irradiance(device, map->photons, map->tree, scratch.hit_point, scratch.hit_normal,
-                                                 slots, settings.estimate, Progress{})
+                                                 keep_order(slots), settings.estimate, Progress{})
                            : gpu::Buffer(device, sizeof(glm::vec4), "no irradiance");
     accumulate(scratch, irradiance);
 }

@@ -100,7 +100,7 @@ const void* Buffer::mapped() const {
 void Buffer::upload(const void* source, std::uint64_t size_bytes, std::uint64_t offset) {
     if (size_bytes == 0)
         return;
-    if (offset + size_bytes > m_impl->capacity_bytes)
+    if (!m_impl->holds(offset, size_bytes))
         throw std::logic_error("upload past the end of a buffer");
     if (void* target = const_cast<void*>(mapped())) {
         std::memcpy(static_cast<char*>(target) + offset, source, size_bytes);
@@ -120,7 +120,7 @@ void Buffer::upload(const void* source, std::uint64_t size_bytes, std::uint64_t 
 void Buffer::download(void* target, std::uint64_t size_bytes, std::uint64_t offset) const {
     if (size_bytes == 0)
         return;
-    if (offset + size_bytes > m_impl->capacity_bytes)
+    if (!m_impl->holds(offset, size_bytes))
         throw std::logic_error("download past the end of a buffer");
     if (const void* source = mapped()) {
         std::memcpy(target, static_cast<const char*>(source) + offset, size_bytes);

@@ -20,6 +20,9 @@ struct Buffer::Impl {
     Impl(Device& opened, std::uint64_t size, std::uint32_t memory_type, const char* purpose);
     ~Impl();
     VkBufferView view_texels();
+    bool holds(std::uint64_t offset, std::uint64_t bytes) const {
+        return bytes <= capacity_bytes && offset <= capacity_bytes - bytes;
+    }
 };
 
 } // namespace photonloupe::gpu

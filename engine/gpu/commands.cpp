@@ -291,11 +291,11 @@ double Commands::run() {
 
 void run_in_chunks(Device& device, const std::string& stage, std::uint64_t total, std::uint64_t granule,
                    const Progress& progress,
-                   const std::function<void(Commands&, std::uint64_t, std::uint64_t)>& record) {
+                   const std::function<void(Commands&, std::uint64_t, std::uint64_t)>& record, std::uint64_t largest) {
     std::uint64_t chunk = granule;
     for (std::uint64_t first = 0; first < total;) {
         progress.report(stage, static_cast<double>(first) / static_cast<double>(total));
-        const std::uint64_t count = std::min(chunk, total - first);
+        const std::uint64_t count = std::min({chunk, total - first, largest});
         Commands commands(device, stage);
         record(commands, first, count);
         const double milliseconds = commands.run();

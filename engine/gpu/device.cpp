@@ -20,6 +20,7 @@ namespace {
 constexpr double USABLE_MEMORY_SHARE = 0.9;
 // Warps of 64 (AMD) are the widest subgroups in use; a kernel's workgroup is one subgroup or a multiple of it.
 constexpr std::uint32_t LARGEST_SUBGROUP = 128;
+constexpr std::uint64_t TEXEL_BYTES = 16; // RGBA32F
 
 struct Properties {
     VkPhysicalDeviceProperties2 base{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
@@ -207,10 +208,14 @@ void read_limits(Device::Impl& impl) {
     impl.limits.subgroup_size = std::min(properties.v11.subgroupSize, LARGEST_SUBGROUP);
     impl.fixes_subgroup_size = can_fix_subgroup_size(impl.physical, properties);
     impl.limits.max_storage_range = limits.maxStorageBufferRange;
-    if (const char* forced = std::getenv("PHOTONLOUPE_STORAGE_RANGE")) // tests make small buffers go by address
-        impl.limits.max_storage_range = std::min<std::uint64_t>(impl.limits.max_storage_range, std::strtoull(forced, nullptr, 10));
-    impl.limits.max_allocation_bytes = maintenance.maxMemoryAllocationSize;
     impl.limits.max_texel_count = limits.maxTexelBufferElements;
+    if (const char* forced = std::getenv("PHOTONLOUPE_STORAGE_RANGE")) { // bytes; tests make small buffers go by address
+        const std::uint64_t range = std::strtoull(forced, nullptr, 10);
+        impl.limits.max_storage_range = std::min(impl.limits.max_storage_range, range);
+        impl.limits.max_texel_count = std::min(impl.limits.max_texel_count, range / TEXEL_BYTES);
+    }
+    impl.limits.max_allocation_bytes = maintenance.maxMemoryAllocationSize;
+    impl.limits.shared_memory_bytes = limits.maxComputeSharedMemorySize;
     impl.limits.max_group_count = limits.maxComputeWorkGroupCount[0];
     impl.timestamp_nanoseconds = limits.timestampComputeAndGraphics ? limits.timestampPeriod : 0.0;
 }

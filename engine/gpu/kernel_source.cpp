@@ -16,7 +16,7 @@ namespace photonloupe::gpu {
 namespace {
 
 struct Expansion {
-    std::filesystem::path folder;
+    std::vector<std::string> folders;
     std::set<std::string> seen;
     ExpandedSource result;
     std::ostringstream text;
@@ -44,8 +44,11 @@ BindingDeclaration parse_binding(const std::string& line, const std::string& whe
 void append_file(Expansion& expansion, const std::string& path, const std::string& included_from) {
     if (!expansion.seen.insert(path).second)
         return;
-    std::ifstream file(expansion.folder / path);
-    if (!file)
+    std::ifstream file;
+    for (const std::string& folder : expansion.folders)
+        if (!file.is_open())
+            file.open(std::filesystem::path(folder) / path);
+    if (!file.is_open())
         throw Error("kernel source '" + path + "' is missing" + included_from +
                     "; reinstall, or point PHOTONLOUPE_SHADER_DIR at the shaders folder");
     expansion.text << "#line 1 \"" << path << "\"\n";
@@ -69,47 +72,47 @@ std::string declare_storage(const BindingDeclaration& binding, std::size_t index
            binding.name + "_block { " + binding.type + " " + binding.name + "[]; };";
 }
 
-std::string declare_pointer(const BindingDeclaration& binding) {
+// A buffer too large for a descriptor: its address is entry `rank` of the block behind the last ordinary binding.
+// Each pointer declares its own view of that block where its pragma stands, so that everything below can use it.
+std::string declare_pointer(const BindingDeclaration& binding, std::size_t block, std::size_t rank) {
     return "layout(buffer_reference, std430, buffer_reference_align = 4) " + binding.qualifier + " buffer " +
-           binding.name + "_pointer { " + binding.type + " data[]; };";
+           binding.name + "_pointer { " + binding.type + " data[]; };\nlayout(set = 0, binding = " +
+           std::to_string(block) + ", std430) readonly buffer " + binding.name + "_address_block { layout(offset = " +
+           std::to_string(rank * sizeof(std::uint64_t)) + ") " + binding.name + "_pointer " + binding.name +
+           "_address; };\n#define " + binding.name + " " + binding.name + "_address.data";
 }
 
 // `name_at(i)` reads a texel binding however it is bound.
-std::string declare_texels(const BindingDeclaration& binding, std::size_t index, bool by_address) {
-    if (by_address)
-        return "#define " + binding.name + "_at(i) " + binding.name + "[i]\n" + declare_pointer(binding);
+std::string declare_texels(const BindingDeclaration& binding, std::size_t index) {
     return "#define " + binding.name + "_at(i) texelFetch(" + binding.name + ", int(i))\nlayout(set = 0, binding = " +
            std::to_string(index) + ") uniform samplerBuffer " + binding.name + ";";
 }
 
-// The block of addresses sits behind the last ordinary binding.
-std::string declare_address_block(const ExpandedSource& source, std::uint64_t by_address) {
-    std::string members, names;
-    for (std::size_t index = 0; index < source.bindings.size(); ++index) {
-        if (!(by_address >> index & 1))
-            continue;
-        const std::string& name = source.bindings[index].name;
-        members += name + "_pointer " + name + "_address; ";
-        names += "\n#define " + name + " large_bindings." + name + "_address.data";
-    }
-    return "layout(set = 0, binding = " + std::to_string(source.bindings.size()) +
-           ", std430) readonly buffer large_bindings_block { " + members + "} large_bindings;" + names;
+std::string declare_large(const BindingDeclaration& binding, std::size_t block, std::size_t rank) {
+    const std::string pointer = declare_pointer(binding, block, rank);
+    return binding.kind == BindingKind::texel ? "#define " + binding.name + "_at(i) " + binding.name + "[i]\n" + pointer
+                                              : pointer;
 }
 
 } // namespace
 
-std::string find_shader_folder() {
-    if (const char* folder = std::getenv("PHOTONLOUPE_SHADER_DIR"); folder && *folder)
-        return folder;
+std::vector<std::string> find_shader_folders() {
+    if (const char* value = std::getenv("PHOTONLOUPE_SHADER_DIR"); value && *value) {
+        std::vector<std::string> folders;
+        std::istringstream list(value);
+        for (std::string folder; std::getline(list, folder, ':');)
+            folders.push_back(folder);
+        return folders;
+    }
     Dl_info info{};
-    if (dladdr(reinterpret_cast<void*>(&find_shader_folder), &info) && info.dli_fname)
-        return (std::filesystem::absolute(info.dli_fname).parent_path() / "shaders").string();
-    return "shaders";
+    if (dladdr(reinterpret_cast<void*>(&find_shader_folders), &info) && info.dli_fname)
+        return {(std::filesystem::absolute(info.dli_fname).parent_path() / "shaders").string()};
+    return {"shaders"};
 }
 
 ExpandedSource expand_source(const std::string& path) {
     Expansion expansion;
-    expansion.folder = find_shader_folder();
+    expansion.folders = find_shader_folders();
     append_file(expansion, path, "");
     expansion.result.text = expansion.text.str();
     return std::move(expansion.result);
@@ -125,20 +128,20 @@ std::string declare_bindings(const ExpandedSource& source, const std::vector<std
         out << "#define " << define << '\n';
     std::istringstream in(source.text);
     std::string line;
-    std::size_t index = 0;
+    std::size_t index = 0, large = 0;
     while (std::getline(in, line)) {
         if (line.rfind("#pragma binding", 0) != 0) {
             out << line << '\n';
             continue;
         }
         const BindingDeclaration& binding = source.bindings[index];
-        const bool large = by_address >> index & 1;
-        if (binding.kind == BindingKind::texel)
-            out << declare_texels(binding, index, large) << '\n';
+        if (by_address >> index & 1)
+            out << declare_large(binding, source.bindings.size(), large++) << '\n';
         else
-            out << (large ? declare_pointer(binding) : declare_storage(binding, index)) << '\n';
-        if (++index == source.bindings.size() && by_address)
-            out << declare_address_block(source, by_address) << '\n';
+            out << (binding.kind == BindingKind::texel ? declare_texels(binding, index)
+                                                       : declare_storage(binding, index))
+                << '\n';
+        ++index;
     }
     return out.str();
 }

@@ -32,8 +32,9 @@ struct ExpandedSource {
     std::vector<BindingDeclaration> bindings;
 };
 
-// The folder that holds the kernels: PHOTONLOUPE_SHADER_DIR, else `shaders` beside the program.
-std::string find_shader_folder();
+// Where kernels are looked for, in this order: the folders of PHOTONLOUPE_SHADER_DIR (separated by ':'), else
+// `shaders` beside the program.
+std::vector<std::string> find_shader_folders();
 
 // Reads a kernel with its includes. Throws Error naming the file and line.
 ExpandedSource expand_source(const std::string& path);

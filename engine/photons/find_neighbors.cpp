@@ -3,40 +3,36 @@
 #include "photons/find_neighbors.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 #include <numeric>
-
-#include "gpu/commands.h"
 
 namespace photonloupe {
 namespace {
 
-Neighbors answer(gpu::Device& device, const KdTree& tree, const gpu::Buffer& queries, const gpu::Buffer& order,
-                 std::uint64_t query_count, std::uint32_t k, bool exclude_self, const Progress& progress) {
-    const std::uint64_t bytes = query_count * k * sizeof(float);
+Neighbors answer(gpu::Device& device, const KdTree& tree, const gpu::Buffer& queries,
+                 std::span<const std::uint32_t> order, std::uint32_t k, bool exclude_self, const Progress& progress) {
+    const std::uint64_t bytes = order.size() * k * sizeof(float);
     Neighbors neighbors{gpu::Buffer(device, bytes, "neighbor ids"), gpu::Buffer(device, bytes, "neighbor distances")};
-    const gpu::KernelSource kernel{"photons/find_neighbors.comp", 0, {}, {size_list(k)}};
-    gpu::run_in_chunks(device, "find neighbors", query_count, QUERIES_PER_GROUP * 16, progress,
-                       [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
-                           const shared::NeighborQuery push{static_cast<std::uint32_t>(first),
-                                                            static_cast<std::uint32_t>(count),
-                                                            static_cast<std::uint32_t>(tree.count),
-                                                            tree.leaf_level,
-                                                            k,
-                                                            QUERIES_PER_GROUP,
-                                                            exclude_self ? 1u : 0u,
-                                                            0.0f};
-                           const std::uint64_t groups = (count + QUERIES_PER_GROUP - 1) / QUERIES_PER_GROUP;
-                           commands.dispatch(kernel,
-                                             {{"tree_nodes", tree.nodes},
-                                              {"tree_positions", tree.positions},
-                                              {"queries", queries},
-                                              {"query_order", order},
-                                              {"neighbor_ids", neighbors.ids},
-                                              {"neighbor_distances", neighbors.distances}},
-                                             push, groups * device.limits().subgroup_size);
-                       });
+    const QueryKernels kernels{"photons/find_neighbors.comp", "photons/select_neighbors.comp", {}, k};
+    shared::NeighborQuery settings{};
+    settings.k = k;
+    settings.exclude_self = exclude_self ? 1 : 0;
+    run_queries(device, tree, kernels, order, settings, "find neighbors",
+                [&](gpu::Commands& commands, const gpu::KernelSource& kernel, const QueryBuffers& buffers,
+                    const shared::NeighborQuery& push, std::uint64_t invocations) {
+                    commands.dispatch(kernel,
+                                      {{"tree_nodes", tree.nodes},
+                                       {"tree_positions", tree.positions},
+                                       {"candidates", buffers.candidates},
+                                       {"ranked", buffers.ranked},
+                                       {"unanswered", buffers.unanswered},
+                                       {"queries", queries},
+                                       {"query_order", buffers.order},
+                                       {"neighbor_ids", neighbors.ids},
+                                       {"neighbor_distances", neighbors.distances}},
+                                      push, invocations);
+                },
+                progress);
     return neighbors;
 }
 
@@ -67,25 +63,13 @@ std::vector<std::uint32_t> order_by_tree(const KdTree& tree, std::span<const std
 
 } // namespace
 
-std::uint32_t size_list(std::uint32_t k) {
-    const std::uint32_t grown = k + std::max(k / 4, shared::TREE_LEAF_PHOTONS / 2) + shared::TREE_LEAF_PHOTONS;
-    return std::max(std::bit_ceil(k), grown); // sorting pads to a power of two
-}
-
-void require_k(std::uint32_t k) {
-    if (k < 1 || k > LARGEST_K)
-        throw Error("k is " + std::to_string(k) + "; it must be 1 to " + std::to_string(LARGEST_K));
-}
-
 Neighbors find_neighbors(gpu::Device& device, const KdTree& tree, std::span<const glm::vec4> queries, std::uint32_t k,
                          bool exclude_self, const Progress& progress) {
     require_k(k);
     if (tree.count == 0 || queries.empty())
         return make_missing(device, queries.size(), k);
-    std::vector<std::uint32_t> order(queries.size());
-    std::iota(order.begin(), order.end(), 0u);
-    return answer(device, tree, gpu::make_buffer(device, queries, "queries"),
-                  gpu::make_buffer(device, order, "query order"), queries.size(), k, exclude_self, progress);
+    return answer(device, tree, gpu::make_buffer(device, queries, "queries"), order_points(queries), k, exclude_self,
+                  progress);
 }
 
 Neighbors find_neighbors_of(gpu::Device& device, const PhotonMap& photons, const KdTree& tree,
@@ -103,8 +87,8 @@ Neighbors find_neighbors_of(gpu::Device& device, const PhotonMap& photons, const
         queries[row] = positions[ids[row]];
         std::memcpy(&queries[row].w, &ids[row], sizeof ids[row]);
     }
-    return answer(device, tree, gpu::make_buffer(device, queries, "queries"),
-                  gpu::make_buffer(device, order_by_tree(tree, ids), "query order"), ids.size(), k, true, progress);
+    return answer(device, tree, gpu::make_buffer(device, queries, "queries"), order_by_tree(tree, ids), k, true,
+                  progress);
 }
 
 } // namespace photonloupe

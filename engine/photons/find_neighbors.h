@@ -4,11 +4,9 @@
 
 #include <span>
 
-#include "photons/kd_tree.h"
+#include "photons/query_tree.h"
 
 namespace photonloupe {
-
-inline constexpr std::uint32_t LARGEST_K = 1000;
 
 // Row q holds the k nearest of query q, nearest first, ties by photon id; missing ones are -1 and inf.
 struct Neighbors {
@@ -23,14 +21,5 @@ Neighbors find_neighbors(gpu::Device& device, const KdTree& tree, std::span<cons
 // Neighbours of photons of the map itself; an id's own photon is left out.
 Neighbors find_neighbors_of(gpu::Device& device, const PhotonMap& photons, const KdTree& tree,
                             std::span<const std::uint32_t> ids, std::uint32_t k, const Progress& progress = {});
-
-// Entries of the list in shared memory that a query for k needs.
-std::uint32_t size_list(std::uint32_t k);
-
-// Throws Error unless k is 1 to LARGEST_K.
-void require_k(std::uint32_t k);
-
-// Queries one workgroup answers in turn: amortizes its start without starving wide devices.
-inline constexpr std::uint32_t QUERIES_PER_GROUP = 16;
 
 } // namespace photonloupe

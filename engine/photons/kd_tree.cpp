@@ -2,16 +2,24 @@
 // Drives the kd-tree kernels: copy the photons, split level by level, then whole subtrees at once.
 #include "photons/kd_tree.h"
 
+#include <algorithm>
+#include <bit>
 #include <cstring>
+#include <thread>
+
+#include <glm/common.hpp>
+
+#include <span>
 
 #include "gpu/commands.h"
 
 namespace photonloupe {
 namespace {
 
-// Above this level nodes are few and large: one dispatch a level, a workgroup a node. From here on a workgroup
-// finishes a whole subtree, whose photons then stay in the processor's cache.
-constexpr std::uint32_t SUBTREE_LEVEL = 8;
+// Nodes with more photons are split by the host: one workgroup would need too many loop turns (shaders/shared/turns.glsl).
+constexpr std::uint64_t HOST_NODE_PHOTONS = 16384;
+// From nodes of this size on a workgroup finishes a whole subtree, whose photons then stay in the processor's cache.
+constexpr std::uint64_t SUBTREE_PHOTONS = 1024;
 
 std::uint32_t find_position(std::uint64_t count, std::uint64_t node, std::uint32_t level) {
     return static_cast<std::uint32_t>(count * node >> level);
@@ -43,6 +51,60 @@ void split_levels(gpu::Device& device, const KdTree& tree, std::uint32_t root_le
                                              {{"tree_positions", tree.positions}, {"tree_nodes", tree.nodes}}, push,
                                              count * device.limits().subgroup_size);
                        });
+}
+
+float pick(const glm::vec4& position, int axis) { return position[axis]; }
+
+// The box and widest axis of photons, as the kernel finds them.
+shared::TreeNode bound_photons(std::span<const glm::vec4> photons, std::uint32_t& axis) {
+    glm::vec3 lo(photons[0]), hi(photons[0]);
+    for (const glm::vec4& photon : photons) {
+        lo = glm::min(lo, glm::vec3(photon));
+        hi = glm::max(hi, glm::vec3(photon));
+    }
+    const glm::vec3 extent = hi - lo;
+    axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+    return {glm::vec4(lo, 0.0f), glm::vec4(hi, std::bit_cast<float>(axis))};
+}
+
+// Splits one node about the median of (coordinate, photon id), like build_tree.comp.
+shared::TreeNode split_node(std::span<glm::vec4> photons, std::size_t split) {
+    std::uint32_t axis = 0;
+    shared::TreeNode node = bound_photons(photons, axis);
+    const int coordinate = static_cast<int>(axis);
+    const auto before = [coordinate](const glm::vec4& a, const glm::vec4& b) {
+        const float x = pick(a, coordinate), y = pick(b, coordinate);
+        return x < y || (x == y && std::bit_cast<std::uint32_t>(a.w) < std::bit_cast<std::uint32_t>(b.w));
+    };
+    std::nth_element(photons.begin(), photons.begin() + static_cast<std::ptrdiff_t>(split), photons.end(), before);
+    node.lo_split.w = pick(photons[split], coordinate); // the smallest of the right half
+    return node;
+}
+
+// Splits the large nodes at the top; returns the first level left to the device.
+std::uint32_t split_top(KdTree& tree, const Progress& progress) {
+    std::uint32_t level = 0;
+    if (tree.count <= HOST_NODE_PHOTONS)
+        return level;
+    std::vector<glm::vec4> photons = tree.positions.read<glm::vec4>(tree.count);
+    for (; level < tree.leaf_level && (tree.count >> level) >= HOST_NODE_PHOTONS; ++level) {
+        progress.report("build tree", static_cast<double>(level) / tree.leaf_level);
+        std::vector<shared::TreeNode> nodes(std::size_t{1} << level);
+        const auto split_from = [&](std::size_t first) { // two threads take every other node
+            for (std::size_t node = first; node < nodes.size(); node += 2) {
+                const std::uint32_t begin = find_position(tree.count, node, level);
+                const std::uint32_t end = find_position(tree.count, node + 1, level);
+                const std::uint32_t split = find_position(tree.count, 2 * node + 1, level + 1);
+                nodes[node] = split_node({&photons[begin], end - begin}, split - begin);
+            }
+        };
+        std::thread other(split_from, 1);
+        split_from(0);
+        other.join();
+        tree.nodes.upload(nodes.data(), nodes.size() * sizeof(shared::TreeNode), nodes.size() * sizeof(shared::TreeNode));
+    }
+    tree.positions.upload(photons.data(), photons.size() * sizeof(glm::vec4));
+    return level;
 }
 
 void copy_normals(gpu::Device& device, const PhotonMap& photons, const KdTree& tree, const Progress& progress) {
@@ -77,8 +139,8 @@ KdTree build_tree(gpu::Device& device, const PhotonMap& photons, const Progress&
     if (photons.count == 0)
         return tree;
     copy_positions(device, photons, tree, progress);
-    std::uint32_t level = 0;
-    for (; level < std::min(SUBTREE_LEVEL, tree.leaf_level); ++level)
+    std::uint32_t level = split_top(tree, progress);
+    for (; level < tree.leaf_level && (tree.count >> level) > SUBTREE_PHOTONS; ++level)
         split_levels(device, tree, level, level, progress);
     split_levels(device, tree, level, tree.leaf_level, progress);
     copy_normals(device, photons, tree, progress);

@@ -2,15 +2,35 @@
 // Uploads the scene; an empty scene becomes one box that no ray enters.
 #include "scene/scene_buffers.h"
 
+#include <cstring>
+
 namespace photonloupe {
 
+namespace {
+
+template <class T> void append_texels(std::vector<glm::vec4>& texels, const std::vector<T>& values) {
+    static_assert(sizeof(T) % sizeof(glm::vec4) == 0);
+    const std::size_t first = texels.size();
+    texels.resize(first + values.size() * sizeof(T) / sizeof(glm::vec4));
+    if (!values.empty())
+        std::memcpy(&texels[first], values.data(), values.size() * sizeof(T));
+}
+
+} // namespace
+
 SceneBuffers upload_scene(gpu::Device& device, const Scene& scene) {
-    SceneBuffers buffers;
     std::vector<shared::BvhNode> nodes = scene.nodes;
     if (nodes.empty())
         nodes.push_back({glm::vec4(1.0f), glm::vec4(-1.0f)}); // inside out: never entered
-    buffers.nodes = gpu::make_buffer(device, nodes, "BVH nodes");
-    buffers.triangles = gpu::make_buffer(device, scene.triangles, "triangles");
+    const std::vector<shared::SceneHeader> header{
+        {static_cast<std::uint32_t>(1 + nodes.size() * sizeof(shared::BvhNode) / sizeof(glm::vec4)), 0, 0, 0}};
+    std::vector<glm::vec4> texels;
+    append_texels(texels, header);
+    append_texels(texels, nodes);
+    append_texels(texels, scene.triangles);
+    texels.emplace_back(0.0f); // a step of the traversal loads four texels, the last triangle has three
+    SceneBuffers buffers;
+    buffers.geometry = gpu::make_buffer(device, texels, "scene geometry");
     buffers.normals = gpu::make_buffer(device, scene.normals, "shading normals");
     buffers.materials = gpu::make_buffer(device, scene.materials, "materials");
     buffers.lights = gpu::make_buffer(device, scene.lights, "lights");

@@ -8,8 +8,7 @@
 namespace photonloupe {
 
 struct SceneBuffers {
-    gpu::Buffer nodes;
-    gpu::Buffer triangles;
+    gpu::Buffer geometry; // shared::SceneHeader, nodes, triangles
     gpu::Buffer normals;
     gpu::Buffer materials;
     gpu::Buffer lights;

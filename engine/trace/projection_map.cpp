@@ -66,10 +66,11 @@ struct Marker {
             return split_triangle(a, b, c, splits);
         }
         const dvec3 center = sum / length;
-        const double cosine = std::min({glm::dot(center, a) / la, glm::dot(center, b) / lb, glm::dot(center, c) / lc});
-        const double radius = std::acos(std::clamp(cosine, -1.0, 1.0)) + ANGLE_SLACK;
-        if (radius < 2.0 / rows || splits == SPLIT_LIMIT)
-            return mark_cap(center, radius);
+        // Chords, not cosines: those of small angles are all 1.
+        const double chord = std::max({glm::distance(center, a / la), glm::distance(center, b / lb),
+                                       glm::distance(center, c / lc)});
+        if (chord < 2.0 / rows || splits == SPLIT_LIMIT)
+            return mark_cap(center, 2 * std::asin(std::min(1.0, 0.5 * chord)) + ANGLE_SLACK);
         split_triangle(a, b, c, splits);
     }
 

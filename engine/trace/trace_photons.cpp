@@ -18,6 +18,10 @@ constexpr double FAST_CHUNK_MILLISECONDS = 25.0;
 // A scene whose first 64 blocks store nothing is given up (METHODS §1), and so is one that needs more than 2^30.
 constexpr std::uint64_t EMPTY_BLOCK_LIMIT = 64;
 constexpr std::uint64_t EMISSION_LIMIT = 1ull << 30;
+// Paths a lane shoots in turn, so that none waits for the longest; all their loop turns come from one budget
+// (shaders/shared/turns.glsl), so long paths go alone.
+constexpr std::uint32_t PATHS_PER_LANE = 8;
+constexpr std::uint32_t SHORT_PATH_BOUNCES = 24;
 constexpr std::uint64_t PHOTON_BYTES = 3 * sizeof(glm::vec4);
 constexpr std::uint32_t LARGEST_BOUNCE_COUNT = 64;
 
@@ -76,6 +80,8 @@ std::vector<std::string> Tracer::list_defines() const {
     defines.push_back("EMISSION " + std::to_string(static_cast<std::uint32_t>(m_settings.emission)));
     if (m_settings.paths)
         defines.emplace_back("RECORD_PATHS");
+    if (m_table.emitters.size() > 1)
+        defines.emplace_back("HAS_SEVERAL_LIGHTS");
     return defines;
 }
 
@@ -117,15 +123,14 @@ void Tracer::choose_chunk(double milliseconds) {
     m_push.slot_count = m_slot_count;
     m_push.light_count = static_cast<std::uint32_t>(m_table.emitters.size());
     m_push.chunk_size = size;
+    m_push.paths_per_lane = m_settings.max_bounces <= SHORT_PATH_BOUNCES ? PATHS_PER_LANE : 1;
 }
 
 double Tracer::shoot() {
     const std::uint32_t blocks = (m_push.count + shared::PATHS_PER_BLOCK - 1) / shared::PATHS_PER_BLOCK;
     gpu::Commands commands(m_device, "trace photons");
-    // Lanes beyond a shortened last chunk find indices ≥ count in the order; they are skipped by the kernel.
-    commands.dispatch({"trace/shoot_photons.comp", 64, m_defines, {}},
-                      {{"nodes", m_buffers.nodes},
-                       {"triangles", m_buffers.triangles},
+    commands.dispatch({"trace/shoot_photons.comp", 0, m_defines, {}},
+                      {{"geometry", m_buffers.geometry},
                        {"shading_normals", m_buffers.normals},
                        {"materials", m_buffers.materials},
                        {"emitters", m_emitters},
@@ -138,7 +143,7 @@ double Tracer::shoot() {
                        {"scratch_position", m_scratch.position},
                        {"scratch_normal", m_scratch.normal},
                        {"scratch_power", m_scratch.power}},
-                      m_push, m_push.chunk_size);
+                      m_push, m_push.chunk_size / m_push.paths_per_lane);
     commands.dispatch({"trace/count_photons.comp", 64, {}, {}},
                       {{"summaries", m_scratch.summaries},
                        {"path_offsets", m_scratch.path_offsets},

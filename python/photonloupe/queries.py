@@ -41,24 +41,23 @@ def find_neighbors(
         query = np.asarray(points)
     except ValueError:
         raise ArgumentError("points must have shape (n, 3), ids shape (n,)") from None
-    opened = device._native
+    ids: NDArray[np.uint32] | None = None
+    vectors: NDArray[np.float64] | None = None
     if query.dtype.kind in "iu" and query.ndim == 1:
         outside = (query < 0) | (query >= photons.count)
         if outside.any():
             row = int(np.argmax(outside))
             raise ArgumentError(f"ids[{row}] = {query[row]} is not a photon; they run from 0 to {photons.count - 1}")
         ids = np.ascontiguousarray(query, dtype=np.uint32)
-        with follow_progress(progress) as callback:
-            found, distances = _engine.find_neighbors_of(opened, photons, ids, k, callback)
     elif query.dtype.kind in "iuf" and query.ndim == 2:
         vectors = check_vectors("points", query)
-        with follow_progress(progress) as callback:
-            found, distances = _engine.find_neighbors(opened, photons, vectors, k, callback)
     else:
         raise ArgumentError(
             "points must be numbers of shape (n, 3), or ids whole numbers of shape (n,), "
             f"not {query.dtype} {query.shape}"
         )
+    with follow_progress(progress) as callback:
+        found, distances = _engine.find_neighbors(device._native, photons, vectors, ids, k, callback)
     return np.asarray(found), np.asarray(distances)
 
 

@@ -65,7 +65,8 @@ def _write_group(folder: Path, columns: Columns, meta: Mapping[str, Any]) -> Non
         array = group.create_array(
             name,
             shape=values.shape,
-            dtype=values.dtype,
+            # By name: C's `unsigned long long` is a uint64 that Zarr does not know.
+            dtype=np.dtype(ALL_COLUMNS[name].dtype),
             chunks=(CHUNK_ROWS, *values.shape[1:]),
             compressors=[ZstdCodec(level=1), Crc32cCodec()],
             # A chunk that is not there then always means damage, never zeros.

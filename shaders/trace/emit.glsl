@@ -26,11 +26,14 @@ uint scale_fraction(uint fraction, uint n, out float rest) {
 }
 
 uint choose_light(uint index) {
-    if (settings.light_count == 1u) return 0u;
+#ifndef HAS_SEVERAL_LIGHTS
+    return 0u;
+#else
     float u = to_unit_float(sample_emission(index, 2u));
     uint light = 0u;
     while (light + 1u < settings.light_count && u >= emitters[light].flux_cumulative.w) ++light;
     return light;
+#endif
 }
 
 Emission emit_photon(uint index) {

@@ -32,9 +32,9 @@ void end_path(inout PathState path, uint outcome) {
 }
 
 // Russian roulette on a coloured factor: survives with its largest channel, so that stored fluxes stay nearly equal.
-bool survive(inout PathState path, vec3 factor, uint dimension) {
+bool survive(inout PathState path, vec3 factor, uint random) {
     float chance = max(factor.r, max(factor.g, factor.b));
-    if (chance >= 1.0 || to_unit_float(random_bits(settings.seed, path.index, path.bounce, dimension)) < chance) {
+    if (chance >= 1.0 || to_unit_float(random) < chance) {
         vec3 leaving = path.flux * factor / max(min(chance, 1.0), 1e-30);
         path.deposited += path.flux - leaving;
         path.flux = leaving;

@@ -2,7 +2,8 @@
 // Shoots one chunk of photons and records every path's vertices and deposits in scratch slots (METHODS §1).
 // Inputs: scene, emitters, cells, cell_rows (projection maps), lane_order (coherent order of a chunk).
 // Outputs: summaries, deposited_flux, lost_flux, and per slot scratch_position, scratch_normal, scratch_power.
-// Defines: STORE_MODE, EMISSION, RECORD_PATHS (keep specular vertices too), HAS_DIELECTRIC, HAS_MIRROR, HAS_ABSORPTION.
+// Defines: STORE_MODE, EMISSION, RECORD_PATHS (keep specular vertices too), HAS_DIELECTRIC, HAS_MIRROR,
+// HAS_ABSORPTION, HAS_SEVERAL_LIGHTS.
 #include "shared/prelude.glsl"
 #include "shared/random.h"
 #include "shared/trace.h"
@@ -24,33 +25,30 @@ layout(push_constant) uniform Push { TraceSettings settings; };
 #include "trace/path_state.glsl"
 
 // Light leaves a diffuse surface, or the path ends there.
-void scatter_diffuse(inout PathState path, Surface surface, vec3 normal) {
+void scatter_diffuse(inout PathState path, Surface surface, vec3 normal, uvec4 random) {
 #if STORE_MODE == 0 // STORE_CAUSTIC: nothing behind a diffuse surface can be stored
     end_path(path, OUTCOME_RECEIVED);
 #else
-    if (!survive(path, surface.material.base_color_metallic.rgb, 1u)) return;
-    float u1 = to_unit_float(random_bits(settings.seed, path.index, path.bounce, 2u));
-    float u2 = to_unit_float(random_bits(settings.seed, path.index, path.bounce, 3u));
-    path.ray = leave_surface(surface, sample_cosine(normal, u1, u2));
+    if (!survive(path, surface.material.base_color_metallic.rgb, random.y)) return;
+    path.ray = leave_surface(surface, sample_cosine(normal, to_unit_float(random.z), to_unit_float(random.w)));
     path.met_diffuse = true;
 #endif
 }
 
-void scatter_mirror(inout PathState path, Surface surface) {
-    float cosine = -dot(path.ray.direction, face_arrival(surface, path.ray.direction));
-    if (!survive(path, reflect_schlick(surface.material, cosine), 1u)) return;
+void scatter_mirror(inout PathState path, Surface surface, vec3 normal, uvec4 random) {
+    if (!survive(path, reflect_schlick(surface.material, -dot(path.ray.direction, normal)), random.y)) return;
     path.ray = leave_surface(surface, reflect_direction(surface, path.ray.direction));
     path.met_specular = true;
 }
 
-uint scatter_dielectric(inout PathState path, Surface surface) {
+uint scatter_dielectric(inout PathState path, Surface surface, uvec4 random) {
     Interface face = meet_dielectric(surface, path.ray.direction);
     path.met_specular = true;
-    if (to_unit_float(random_bits(settings.seed, path.index, path.bounce, 4u)) < face.reflectance) {
+    if (to_unit_float(random.z) < face.reflectance) {
         path.ray = leave_surface(surface, reflect_direction(surface, path.ray.direction));
         return INTERACTION_REFLECTED;
     }
-    if (survive(path, surface.material.base_color_metallic.rgb, 1u))
+    if (survive(path, surface.material.base_color_metallic.rgb, random.y))
         path.ray = leave_surface(surface, face.transmitted);
     return INTERACTION_TRANSMITTED;
 }
@@ -58,8 +56,10 @@ uint scatter_dielectric(inout PathState path, Surface surface) {
 // Stores the deposit if the set asks for it, then chooses a lobe and goes on.
 void meet_surface(inout PathState path, Surface surface, float distance) {
     vec3 normal = face_arrival(surface, path.ray.direction);
+    uvec4 random = random_words(settings.seed, path.index, path.bounce, 0u); // lobe, roulette, direction
 #ifdef HAS_ABSORPTION
-    if (!survive(path, transmit_interior(surface, path.ray.direction, distance), 0u)) return;
+    if (!survive(path, transmit_interior(surface, path.ray.direction, distance),
+                 random_bits(settings.seed, path.index, path.bounce, 1u))) return;
 #endif
     float diffuse = weigh_diffuse(surface.material);
     bool stores = diffuse > 0.0 && is_stored(path);
@@ -68,32 +68,44 @@ void meet_surface(inout PathState path, Surface surface, float distance) {
     if (path.bounce == settings.max_bounces && !(STORE_MODE == STORE_CAUSTIC && diffuse == 1.0)) {
         end_path(path, OUTCOME_TRUNCATED);
     } else {
-        float choice = to_unit_float(random_bits(settings.seed, path.index, path.bounce, 5u));
-        bool takes_diffuse = choice < diffuse;
-        if (takes_diffuse) scatter_diffuse(path, surface, normal);
+        float choice = to_unit_float(random.x);
+        if (choice < diffuse) scatter_diffuse(path, surface, normal, random);
 #ifdef HAS_MIRROR
-        else if (choice < diffuse + weigh_mirror(surface.material)) scatter_mirror(path, surface);
+        else if (choice < diffuse + weigh_mirror(surface.material)) scatter_mirror(path, surface, normal, random);
 #endif
 #ifdef HAS_DIELECTRIC
-        else interaction = scatter_dielectric(path, surface);
+        else interaction = scatter_dielectric(path, surface, random);
 #endif
     }
     record_vertex(path, surface, normal, interaction, diffuse, arriving, stores);
 }
 
+// One segment of the path: to the next surface, or away.
+void follow_segment(inout PathState path) {
+    Hit hit = intersect_scene(path.ray, INFINITY, false);
+    if (hit.t == INFINITY) end_path(path, OUTCOME_ESCAPED);
+    else meet_surface(path, load_surface(hit), hit.t);
+    ++path.bounce;
+    if (!path.alive) finish_path(path);
+}
+
+// A subgroup owns paths_per_lane paths per lane; a lane whose path ends takes the next one, so that none waits for
+// the longest path.
 void main() {
-    if (gl_GlobalInvocationID.x >= settings.chunk_size) return;
-    uint slot = lane_order[gl_GlobalInvocationID.x];
-    if (slot >= settings.count) return; // a shortened last chunk
-    PathState path = start_path(settings.first + slot, slot);
-    while (path.alive) {
-        Hit hit = intersect_scene(path.ray, INFINITY, false);
-        if (hit.t == INFINITY) {
-            end_path(path, OUTCOME_ESCAPED);
-            break;
+    uint next = gl_WorkGroupID.x * gl_WorkGroupSize.x * settings.paths_per_lane;
+    uint end = min(next + gl_WorkGroupSize.x * settings.paths_per_lane, settings.chunk_size);
+    PathState path;
+    path.alive = false;
+    bool busy = true;
+    while (busy) {
+        uvec4 idle = subgroupBallot(!path.alive);
+        uint turn = next + subgroupBallotExclusiveBitCount(idle);
+        next += subgroupBallotBitCount(idle);
+        if (!path.alive && turn < end) {
+            uint slot = lane_order[turn];
+            if (slot < settings.count) path = start_path(settings.first + slot, slot); // a last chunk may be shorter
         }
-        meet_surface(path, load_surface(hit), hit.t);
-        ++path.bounce;
+        if (path.alive) follow_segment(path);
+        busy = subgroupAny(path.alive) || next < end;
     }
-    finish_path(path);
 }

@@ -2,17 +2,10 @@
 // Irradiance at a point from its k nearest photons on the same surface (METHODS §2), by one subgroup.
 // A photon counts within radius r when n_i·n > 0.7, d_i ≤ r and |n·(x_i - x)| ≤ flatness·r: its measure is the
 // smallest such r, squared. Define KERNEL. Inputs: tree_normals (tree order), power_object (by photon id).
-#include "shared/math.glsl"
-#include "photons/nearest.glsl"
+#include "estimate/density.glsl"
+#include "photons/select_nearest.glsl"
 #pragma binding texel tree_normals
 #pragma binding readonly vec4 power_object
-
-// Photons whose normal differs more belong to another surface (METHODS §2).
-const float SAME_SURFACE_COSINE = 0.7;
-// r for a set that takes every photon: a little beyond the farthest, so that its weight is not lost to rounding.
-const float BEYOND_FARTHEST = 1.000001;
-const float FLOAT_EPSILON = 1.1920929e-7;
-const float SMALLEST_RADIUS = 1e-15; // its square is still a normal float
 
 vec3 gather_point;
 vec3 gather_normal;
@@ -24,19 +17,6 @@ bool measure_photon(uint position, vec4 photon, out float measure) {
     float height = gather_flatness > 0.0 ? dot(gather_normal, d) / gather_flatness : 0.0;
     measure = max(squared, height * height);
     return dot(tree_normals_at(position).xyz, gather_normal) > SAME_SURFACE_COSINE;
-}
-
-// Weight of a photon at squared distance s = d²/r², times π r².
-float weigh_photon(float s) {
-#if KERNEL == 0 // KERNEL_EPANECHNIKOV
-    return 2.0 * max(0.0, 1.0 - s);
-#elif KERNEL == 1 // KERNEL_DISC; (k - 1)/k of it in estimate_irradiance
-    return 1.0;
-#elif KERNEL == 2 // KERNEL_CONE: 1 - d/(c r), normalized by 1 - 2/(3c), c = 1.1 (Jensen)
-    return (1.0 - sqrt(s) / 1.1) / (1.0 - 2.0 / 3.3);
-#else // KERNEL_GAUSSIAN: Jensen's 0.918 (1 - (1 - e^(-β s/2))/(1 - e^-β)), β = 1.953, normalized by 0.531
-    return 0.918 * (1.0 - (1.0 - exp_exact(-1.953 * 0.5 * s)) / (1.0 - exp_exact(-1.953))) / 0.531;
-#endif
 }
 
 vec3 estimate_irradiance(uint photon_count, uint leaf_level, uint k) {
@@ -60,9 +40,8 @@ vec3 estimate_irradiance(uint photon_count, uint leaf_level, uint k) {
         r2 = uintBitsToFloat(list[k].x);
         used = k;
     }
-    // Photons that coincide with the point are spread over the spacing of floats there: closer is not resolved.
-    float spacing = max(max(abs(gather_point.x), max(abs(gather_point.y), abs(gather_point.z))) * FLOAT_EPSILON, SMALLEST_RADIUS);
-    r2 = max(r2, spacing * spacing);
+    float r = max(sqrt(r2), find_spacing(gather_point));
+    r2 = r * r;
     vec3 sum = vec3(0.0);
     for (uint i = LANE; i < used; i += WIDTH) {
         vec4 photon = tree_positions_at(list[i].y);
@@ -73,7 +52,5 @@ vec3 estimate_irradiance(uint photon_count, uint leaf_level, uint k) {
 #if KERNEL == 1
     total *= float(count - 1u) / float(count);
 #endif
-    // In two steps: π r² of a tiny radius would underflow.
-    float r = sqrt(r2);
-    return total / r / (PI * r);
+    return spread_flux(total, r);
 }

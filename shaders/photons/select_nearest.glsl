@@ -4,6 +4,7 @@
 // The kernel defines `bool measure_photon(uint position, vec4 photon, out float measure)`, never below the squared
 // distance. Inputs: tree_nodes (2 texels a node), tree_positions (xyz, w photon id).
 #include "photons/tree_layout.glsl"
+#include "shared/turns.glsl"
 #pragma binding texel tree_nodes
 #pragma binding texel tree_positions
 
@@ -53,6 +54,7 @@ uint split_range(uint first, uint end, uvec2 pivot, bool inclusive) {
     if (LANE < right_count) held_right = list[read_right + LANE];
     synchronize();
     while (read_left < read_right) {
+        ++turns;
         uint n = min(WIDTH, read_right - read_left);
         bool from_left = read_left - left <= right - read_right;
         if (!from_left) read_right -= n;
@@ -84,7 +86,8 @@ uvec2 choose_pivot(uint first, uint end, uint split) {
 // Puts the k smallest of list[0, count) first, in any order, and returns the largest measure among them.
 float cut_list(uint count, uint k) {
     uint first = 0u, end = count;
-    while (first < k && k < end) {
+    while (first < k && k < end && has_turns_left()) {
+        turns += WIDTH + 4u;
         uvec2 pivot = choose_pivot(first, end, k);
         uint middle = split_range(first, end, pivot, false);
         if (middle == first) middle = split_range(first, end, pivot, true); // the pivot was the smallest
@@ -92,6 +95,7 @@ float cut_list(uint count, uint k) {
         else end = middle;
     }
     uint largest = 0u;
+    turns += k / WIDTH + 1u;
     for (uint i = LANE; i < min(k, count); i += WIDTH) largest = max(largest, list[i].x);
     return uintBitsToFloat(subgroupMax(largest));
 }
@@ -130,6 +134,7 @@ bool measure_photon(uint position, vec4 photon, out float measure);
 // Appends a leaf's photons within the bound to the list.
 uint gather_leaf(uint first, uint end, float bound, uint count) {
     for (uint base = first; base < end; base += WIDTH) {
+        turns += 2u;
         uint position = base + LANE;
         float measure = 0.0;
         bool valid = position < end && measure_photon(position, tree_positions_at(min(position, end - 1u)), measure);
@@ -143,6 +148,7 @@ uint gather_leaf(uint first, uint end, float bound, uint count) {
 }
 
 // Leaves the k smallest photons of the tree in list[0, returned count), unordered; `bound` becomes their largest measure.
+// Without turns left at the end the result is not to be trusted.
 uint find_smallest(vec3 query, uint photon_count, uint leaf_level, uint k, out float bound) {
     bound = INFINITY;
     uint count = 0u;
@@ -154,8 +160,9 @@ uint find_smallest(vec3 query, uint photon_count, uint leaf_level, uint k, out f
         stack_distance[0] = 0.0;
     }
     synchronize();
-    while (depth > 0u) {
+    while (depth > 0u && has_turns_left()) {
         --depth;
+        turns += TREE_FANOUT + 3u;
         if (stack_distance[depth] > bound) continue;
         uint node = stack_node[depth];
         uint level = find_level(node);

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Never run: declares every shared struct that lies in buffers as storage, those too that kernels read as texels.
+#include "shared/prelude.glsl"
+#include "shared/photons.h"
+#include "shared/scene.h"
+#include "shared/trace.h"
+#pragma binding readonly Triangle triangles
+#pragma binding readonly TriangleNormals normals
+#pragma binding readonly Material materials
+#pragma binding readonly Light lights
+#pragma binding readonly BvhNode nodes
+#pragma binding readonly SceneHeader headers
+#pragma binding readonly TreeNode tree_nodes
+#pragma binding readonly LightEmission emitters
+#pragma binding readonly PathSummary summaries
+#pragma binding readonly BalanceSum balance
+
+void main() {}
