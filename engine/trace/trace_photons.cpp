@@ -40,11 +40,12 @@ public:
 private:
     std::vector<std::string> list_defines() const;
     void require_memory() const;
+    void shoot_slowly();
     void choose_chunk(double milliseconds);
     double shoot();
     std::uint32_t find_kept_paths(const std::vector<glm::uvec2>& offsets) const;
     void write(std::uint32_t kept, const glm::uvec2& added);
-    void account(std::uint32_t kept);
+    bool account(std::uint32_t kept);
     bool is_done() const;
     void require_progress() const;
     void scale_power(const Progress& progress);
@@ -63,6 +64,7 @@ private:
     std::vector<std::string> m_defines;
     ChunkScratch m_scratch;
     shared::TraceSettings m_push{};
+    std::uint32_t m_paths_per_lane = PATHS_PER_LANE;
     std::uint64_t m_photon_count = 0;
     std::uint64_t m_vertex_count = 0;
     GrowingBuffer m_position{m_device, "photon positions"};
@@ -123,7 +125,7 @@ void Tracer::choose_chunk(double milliseconds) {
     m_push.slot_count = m_slot_count;
     m_push.light_count = static_cast<std::uint32_t>(m_table.emitters.size());
     m_push.chunk_size = size;
-    m_push.paths_per_lane = m_settings.max_bounces <= SHORT_PATH_BOUNCES ? PATHS_PER_LANE : 1;
+    m_push.paths_per_lane = m_settings.max_bounces <= SHORT_PATH_BOUNCES ? m_paths_per_lane : 1;
 }
 
 double Tracer::shoot() {
@@ -176,6 +178,8 @@ void Tracer::write(std::uint32_t kept, const glm::uvec2& added) {
         for (GrowingBuffer* column : {&m_vertices, &m_normals})
             column->reserve((m_vertex_count + added.y) * sizeof(glm::vec4), m_vertex_count * sizeof(glm::vec4));
     }
+    if (m_vertex_count + added.y > UINT32_MAX)
+        throw MemoryError("path columns: more than 2^32 vertices; trace fewer photons, or without path columns");
     m_push.count = kept;
     m_push.photon_base = static_cast<std::uint32_t>(m_photon_count);
     m_push.vertex_base = static_cast<std::uint32_t>(m_vertex_count);
@@ -207,13 +211,15 @@ void Tracer::write(std::uint32_t kept, const glm::uvec2& added) {
                        {"balance", m_scratch.balance}},
                       m_push, (kept + shared::PATHS_PER_BLOCK - 1) / shared::PATHS_PER_BLOCK);
     commands.run();
-    m_photon_count += added.x;
-    m_vertex_count += added.y;
 }
 
-void Tracer::account(std::uint32_t kept) {
+// Adds the chunk's paths to the report; false when some were not finished, and then nothing is added.
+bool Tracer::account(std::uint32_t kept) {
     const std::uint32_t blocks = (kept + shared::PATHS_PER_BLOCK - 1) / shared::PATHS_PER_BLOCK;
-    for (const shared::BalanceSum& sum : m_scratch.balance.read<shared::BalanceSum>(blocks)) {
+    const std::vector<shared::BalanceSum> sums = m_scratch.balance.read<shared::BalanceSum>(blocks);
+    if (std::any_of(sums.begin(), sums.end(), [](const shared::BalanceSum& sum) { return sum.emitted.w > 0; }))
+        return false;
+    for (const shared::BalanceSum& sum : sums) {
         m_report.absorbed += sum.paths.x;
         m_report.escaped += sum.paths.y;
         m_report.truncated += sum.paths.z;
@@ -226,6 +232,7 @@ void Tracer::account(std::uint32_t kept) {
         }
     }
     m_report.emitted += kept;
+    return true;
 }
 
 bool Tracer::is_done() const {
@@ -253,6 +260,14 @@ double Tracer::find_fraction() const {
                                   : static_cast<double>(m_photon_count) / static_cast<double>(m_settings.count);
 }
 
+// A workgroup ran out of loop turns: from now on each lane shoots one path with all of them.
+void Tracer::shoot_slowly() {
+    if (m_push.paths_per_lane == 1)
+        throw Error(m_scene.path.string() + ": a photon's rays meet more of the scene than one path can look through; "
+                                            "split very long or overlapping triangles, or lower max_bounces");
+    m_paths_per_lane = 1;
+}
+
 TracedPhotons Tracer::run(const Progress& progress) {
     require_memory();
     double milliseconds = 0;
@@ -263,8 +278,14 @@ TracedPhotons Tracer::run(const Progress& progress) {
         const std::uint32_t blocks = (m_push.count + shared::PATHS_PER_BLOCK - 1) / shared::PATHS_PER_BLOCK;
         const std::vector<glm::uvec2> offsets = m_scratch.block_offsets.read<glm::uvec2>(blocks + 1);
         const std::uint32_t kept = find_kept_paths(offsets);
-        write(kept, offsets[std::min<std::uint32_t>(blocks, (kept + shared::PATHS_PER_BLOCK - 1) / shared::PATHS_PER_BLOCK)]);
-        account(kept);
+        const glm::uvec2 added = offsets[(kept + shared::PATHS_PER_BLOCK - 1) / shared::PATHS_PER_BLOCK];
+        write(kept, added);
+        if (!account(kept)) {
+            shoot_slowly();
+            continue;
+        }
+        m_photon_count += added.x;
+        m_vertex_count += added.y;
         require_progress();
     }
     return finish(progress);

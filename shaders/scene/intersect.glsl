@@ -4,6 +4,7 @@
 // Nodes and triangles share a buffer so that one step of the traversal, whichever it meets, is the same four loads:
 // on SIMD without branches every lane pays for every load in the loop.
 #include "shared/scene.h"
+#include "shared/turns.glsl"
 #pragma binding texel geometry
 
 struct Ray {
@@ -84,7 +85,7 @@ const uint PACKED_COUNT_SHIFT = 28u;
 // A node in one word: what it points to and, for a leaf, how many triangles.
 uint pack_node(vec4 lo, vec4 hi) { return floatBitsToUint(lo.w) | floatBitsToUint(hi.w) << PACKED_COUNT_SHIFT; }
 
-// Nearest hit before `t_max`; with `any_hit` the first one found.
+// Nearest hit before `t_max`; with `any_hit` the first one found. Without turns left the search was given up.
 Hit intersect_scene(Ray ray, float t_max, bool any_hit) {
     Hit hit = Hit(t_max, 0u, 0.0, 0.0);
     bool found = false;
@@ -98,6 +99,7 @@ Hit intersect_scene(Ray ray, float t_max, bool any_hit) {
     uint base = stack;
     bool alive = enter_box(root_lo.xyz, root_hi.xyz, ray.origin, inverse, t_max) < INFINITY;
     while (alive) {
+        ++turns;
         uint first = node & ((1u << PACKED_COUNT_SHIFT) - 1u);
         uint count = node >> PACKED_COUNT_SHIFT;
         bool is_leaf = count > 0u;
@@ -131,7 +133,7 @@ Hit intersect_scene(Ray ray, float t_max, bool any_hit) {
             stack -= alive ? gl_WorkGroupSize.x : 0u;
             node = traversal_stack[stack];
         }
-        alive = alive && !(any_hit && found);
+        alive = alive && !(any_hit && found) && has_turns_left();
     }
     if (!found) hit.t = INFINITY;
     return hit;

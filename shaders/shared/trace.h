@@ -20,6 +20,7 @@ const uint OUTCOME_ABSORBED = 0u;
 const uint OUTCOME_ESCAPED = 1u;
 const uint OUTCOME_TRUNCATED = 2u;
 const uint OUTCOME_RECEIVED = 3u;
+const uint OUTCOME_UNFINISHED = 4u; // the workgroup's loop turns did not suffice; never in a finished map
 
 // Interaction at a path vertex, as the script language reports it.
 const uint INTERACTION_END = 0u;
@@ -68,7 +69,7 @@ struct PathSummary {
 // Per-block sums for the balance: paths by outcome, flux by fate.
 struct BalanceSum {
     uvec4 paths;     // absorbed, escaped, truncated, received
-    vec4 emitted;    // rgb
+    vec4 emitted;    // rgb; w: unfinished paths
     vec4 deposited;  // rgb, sum over all events of flux in minus flux out
     vec4 escaped;    // rgb
     vec4 truncated;  // rgb

@@ -89,6 +89,18 @@ void follow_segment(inout PathState path) {
     if (!path.alive) finish_path(path);
 }
 
+// Marks what the workgroup had no turns left for; the host shoots the chunk again with fewer paths a lane.
+void give_up(PathState path, uint next, uint end) {
+    if (path.alive) {
+        path.outcome = OUTCOME_UNFINISHED;
+        finish_path(path);
+    }
+    for (uint turn = next + gl_LocalInvocationID.x; turn < end; turn += gl_WorkGroupSize.x) {
+        uint slot = lane_order[turn];
+        if (slot < settings.count) summaries[slot] = PathSummary(OUTCOME_UNFINISHED, 0u, 0u, 0u);
+    }
+}
+
 // A subgroup owns paths_per_lane paths per lane; a lane whose path ends takes the next one, so that none waits for
 // the longest path.
 void main() {
@@ -106,6 +118,8 @@ void main() {
             if (slot < settings.count) path = start_path(settings.first + slot, slot); // a last chunk may be shorter
         }
         if (path.alive) follow_segment(path);
-        busy = subgroupAny(path.alive) || next < end;
+        ++turns;
+        busy = (subgroupAny(path.alive) || next < end) && subgroupAll(has_turns_left());
     }
+    give_up(path, next, end);
 }

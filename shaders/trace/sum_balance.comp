@@ -20,6 +20,7 @@ void main() {
         uint outcome = summaries[path].outcome & 0xffu;
         sum.paths += uvec4(outcome == OUTCOME_ABSORBED, outcome == OUTCOME_ESCAPED, outcome == OUTCOME_TRUNCATED,
                            outcome == OUTCOME_RECEIVED);
+        if (outcome == OUTCOME_UNFINISHED) sum.emitted.w += 1.0;
         sum.emitted.rgb += emitters[summaries[path].outcome >> 8u].flux_cumulative.rgb;
         sum.deposited += deposited_flux[path];
         if (outcome == OUTCOME_ESCAPED) sum.escaped += lost_flux[path];

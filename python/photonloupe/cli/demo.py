@@ -26,8 +26,8 @@ DESCRIPTION = "Trace the gold ring, save its photon map, render its caustic, com
 _SCENE = Path("scenes", "ring", "ring.gltf")
 _PHOTONS = QUALITIES["balanced"].photons
 _SIDE = 512
-# One sample a pixel keeps the demo under a minute on a software device.
-_SAMPLES = 1
+# Four samples a pixel keep the demo under a minute on a software device.
+_SAMPLES = 4
 # Mode, camera, exposure. The floor under the lamp has radiance 0.87 and needs no brightening; the caustic alone does.
 _PICTURES = (
     ("caustic", "top", 1.0),

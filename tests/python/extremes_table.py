@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The table of extremes: which cases there are, what the program does in each, and what a test run measured."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import photonloupe as pl
+from conftest import SCENES
+
+DOCUMENT = SCENES.parent / "docs" / "extremes.md"
+
+HEADER = """# At the extremes
+
+Written by `tests/python/test_extremes*.py` on the software device: every case below is run and checked, and the last
+column is what it measured. Errors are relative to double precision, or to a closed form, unless it says otherwise.
+Nothing here ends in a NaN: a stage gives a finite result or refuses with a message.
+
+| case | what the program does | measured |
+|---|---|---|
+"""
+
+# In the order of the table.
+CASES: dict[str, tuple[str, str]] = {
+    "scale": ("scene scaled by 10⁻⁶, 10⁻³, 10³, 10⁶", "the same fluxes; irradiance scales with 1/scale²"),
+    "scale-bits": ("scene scaled by 2⁻²⁰, 2²⁰", "the same bits, scaled: positions, fluxes, irradiance"),
+    "offset": (
+        "scene of size 1 at distance 10⁶ from the origin",
+        "kernels work relative to the scene's center; only the float `positions` column is coarse",
+    ),
+    "grazing": ("light that arrives at 89.98° to 89.99°", "flux of the ring it lights against the closed form"),
+    "on-surface": ("light on a surface", "light leaves to both sides; that surface itself receives none"),
+    "inside-glass": ("light inside a glass block, ior 1.5", "share held back by total internal reflection"),
+    "ior-1": ("ior 1", "light passes straight, nothing is reflected: largest sideways error"),
+    "ior-1.0001": ("light inside a glass block, ior 1.0001", "nothing is held back: share that gets out"),
+    "ior-4": ("light inside a glass block, ior 4", "share held back by total internal reflection"),
+    "bounces": ("64 bounces in that block", "every path accounted for; flux in against flux out"),
+    "two-vertices": ("path of two vertices (direct light)", "from the light to the photon: distance of the end points"),
+    "zero-area": ("triangles of zero area", "dropped and reported; the photons stay the same bits"),
+    "slivers": ("floor patch of slivers 10⁶:1", "no light falls through: flux against a floor without them"),
+    "duplicates": ("floor drawn twice", "each photon is stored once, at the same place"),
+    "photons-0": ("0 photons", "irradiance 0; neighbors −1 and inf"),
+    "photons-few": ("1, 2, k, k + 1 photons, k = 10", "irradiance as the twin's"),
+    "one-point": (
+        "1,000 photons at one point",
+        "neighbors tie by id; irradiance finite there and beside",
+    ),
+    "one-line": ("1,000 photons on one line", "irradiance as the twin's"),
+    "k-1": ("k = 1", "irradiance as the twin's"),
+    "k-1000": ("k = 1000 of 300 photons", "all are used: irradiance as the twin's"),
+    "flux": ("photon flux 10⁻³⁰ to 10³⁰ W", "irradiance scales along"),
+    "intensity": ("light of 10⁻³⁰ and 10³⁰ W/sr", "stored flux scales along"),
+    "intensity-limit": ("light of 3·10³⁸ W/sr", "refused by the loader: at most 10³⁰"),
+    "not-finite": ("NaN and ±inf in every float column", "refused by column and row: columns tried"),
+    "points-not-finite": ("NaN and ±inf in query points and normals", "refused by row: arrays tried"),
+    "vertex-not-finite": ("vertex that is NaN, inf or beyond 10³⁰ m", "refused by the loader: values tried"),
+    "count-limit": ("2³¹ photons asked for", "refused: at most 2³¹ − 1"),
+    "memory-limit": ("2³¹ − 1 photons asked for", "refused with how many would fit"),
+    "emitted-limit": ("2³⁰ + 1 photons to emit", "refused: at most 2³⁰"),
+    "k-limit": ("k = 0 and 1001", "refused: k is 1 to 1000"),
+    "id-limit": ("photon id 2³¹", "refused by row"),
+}
+
+
+def show(value: float) -> str:
+    """Two significant digits: what is left of rounding noise does not change the file."""
+    return "0" if value == 0 else f"{value:.1e}"
+
+
+_measured: dict[str, str] = {}
+
+
+def add_row(case: str, measured: str) -> None:
+    """Note what a case measured; the last of all cases renews the document, on the software device."""
+    assert case in CASES, f"{case} is not in the table of cases"
+    _measured[case] = measured
+    if _measured.keys() == CASES.keys() and pl.Device().info["type"] == "software":
+        _write(DOCUMENT)
+
+
+def _write(path: Path) -> None:
+    """Rewrite the file if its content changed."""
+    rows = (f"| {CASES[case][0]} | {CASES[case][1]} | {_measured[case]} |\n" for case in CASES)
+    text = HEADER + "".join(rows)
+    if not path.exists() or path.read_text(encoding="utf-8") != text:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
