@@ -209,7 +209,7 @@ void read_limits(Device::Impl& impl) {
     impl.fixes_subgroup_size = can_fix_subgroup_size(impl.physical, properties);
     impl.limits.max_storage_range = limits.maxStorageBufferRange;
     impl.limits.max_texel_count = limits.maxTexelBufferElements;
-    if (const char* forced = std::getenv("PHOTONLOUPE_STORAGE_RANGE")) { // bytes; tests make small buffers go by address
+    if (const char* forced = std::getenv("PHOTONLOUPE_STORAGE_RANGE")) { // bytes; for tests of large buffers
         const std::uint64_t range = std::strtoull(forced, nullptr, 10);
         impl.limits.max_storage_range = std::min(impl.limits.max_storage_range, range);
         impl.limits.max_texel_count = std::min(impl.limits.max_texel_count, range / TEXEL_BYTES);

@@ -76,16 +76,18 @@ std::string declare_storage(const BindingDeclaration& binding, std::size_t index
 // Each pointer declares its own view of that block where its pragma stands, so that everything below can use it.
 std::string declare_pointer(const BindingDeclaration& binding, std::size_t block, std::size_t rank) {
     return "layout(buffer_reference, std430, buffer_reference_align = 4) " + binding.qualifier + " buffer " +
-           binding.name + "_pointer { " + binding.type + " data[]; };\nlayout(set = 0, binding = " +
-           std::to_string(block) + ", std430) readonly buffer " + binding.name + "_address_block { layout(offset = " +
-           std::to_string(rank * sizeof(std::uint64_t)) + ") " + binding.name + "_pointer " + binding.name +
-           "_address; };\n#define " + binding.name + " " + binding.name + "_address.data";
+           binding.name + "_pointer { " + binding.type +
+           " data[]; };\nlayout(set = 0, binding = " + std::to_string(block) + ", std430) readonly buffer " +
+           binding.name + "_address_block { layout(offset = " + std::to_string(rank * sizeof(std::uint64_t)) + ") " +
+           binding.name + "_pointer " + binding.name + "_address; };\n#define " + binding.name + " " + binding.name +
+           "_address.data";
 }
 
 // `name_at(i)` reads a texel binding however it is bound.
 std::string declare_texels(const BindingDeclaration& binding, std::size_t index) {
-    return "#define " + binding.name + "_at(i) texelFetch(" + binding.name + ", int(i))\nlayout(set = 0, binding = " +
-           std::to_string(index) + ") uniform samplerBuffer " + binding.name + ";";
+    return "#define " + binding.name + "_at(i) texelFetch(" + binding.name +
+           ", int(i))\nlayout(set = 0, binding = " + std::to_string(index) + ") uniform samplerBuffer " + binding.name +
+           ";";
 }
 
 std::string declare_large(const BindingDeclaration& binding, std::size_t block, std::size_t rank) {

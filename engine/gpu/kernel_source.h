@@ -11,10 +11,10 @@ namespace photonloupe::gpu {
 // What to compile: a file below shaders/, structural defines, and numbers as specialisation constants 1, 2, …
 // (constant 0 is the workgroup's size).
 struct KernelSource {
-    std::string path;                      // "trace/shoot_photons.comp"
-    std::uint32_t workgroup_size = 64;     // 0: one subgroup
-    std::vector<std::string> defines;      // "HAS_DIELECTRIC", "METRIC 2"
-    std::vector<std::uint32_t> constants;  // constant_id 1, 2, …
+    std::string path;                     // "trace/shoot_photons.comp"
+    std::uint32_t workgroup_size = 64;    // 0: one subgroup
+    std::vector<std::string> defines;     // "HAS_DIELECTRIC", "METRIC 2"
+    std::vector<std::uint32_t> constants; // constant_id 1, 2, …
 };
 
 enum class BindingKind { storage, texel };

@@ -1,51 +1,158 @@
-"""CONTRACT for the extension module (replaced by the generated stub once it exists)."""
-from collections.abc import Callable
-import numpy as np
+"""
+Photon Loupe's engine: tracing, photon maps, estimation on Vulkan compute.
+"""
 
-Progress = Callable[[str, float], bool | None] | None   # returns False to stop; raising also stops
+from collections.abc import Mapping
+from typing import Annotated
 
-class PhotonLoupeError(Exception): ...
-class SceneError(PhotonLoupeError): ...
-class DeviceError(PhotonLoupeError): ...
-class DeviceMemoryError(PhotonLoupeError): ...
-class Cancelled(PhotonLoupeError): ...
+import numpy
+from numpy.typing import NDArray
 
-version: str
-def list_devices() -> list[dict]: ...        # index, name, type ("discrete", "integrated", "software", ...), driver, api_version, memory (bytes), usable (bool), reason (str)
+
+version: str = '0.1.0'
+
+class PhotonLoupeError(Exception):
+    pass
+
+class SceneError(PhotonLoupeError):
+    pass
+
+class DeviceError(PhotonLoupeError):
+    pass
+
+class DeviceMemoryError(PhotonLoupeError):
+    pass
+
+class Cancelled(PhotonLoupeError):
+    pass
+
+def list_devices() -> list:
+    """Every Vulkan device of this machine."""
 
 class Device:
-    def __init__(self, selector: str = "auto") -> None: ...   # "auto", an index as str, or part of a name
-    info: dict                                                # as above plus "chosen_because"
-    def self_test(self) -> dict: ...                          # runs one dispatch: {"ok": bool, "milliseconds": float, ...}
-    def timings(self) -> list[dict]: ...                      # [{"stage": str, "milliseconds": float, "dispatches": int}], since last call
+    def __init__(self, selector: str = 'auto') -> None: ...
 
-class Scene:                  # path, hash, origin (3,), bounds (2, 3), cameras/lights/materials/objects: list[dict]
-    report: dict              # ignored, notes, requires (list[str]), left_out (list[str])
-    triangle_count: int
+    @property
+    def info(self) -> dict: ...
+
+    def self_test(self) -> dict: ...
+
+    def timings(self) -> list: ...
+
+class Scene:
+    @property
+    def path(self) -> str: ...
+
+    @property
+    def hash(self) -> str: ...
+
+    @property
+    def origin(self) -> list[float]: ...
+
+    @property
+    def bounds(self) -> tuple: ...
+
+    @property
+    def cameras(self) -> list: ...
+
+    @property
+    def lights(self) -> list: ...
+
+    @property
+    def materials(self) -> list: ...
+
+    @property
+    def objects(self) -> list: ...
+
+    @property
+    def report(self) -> dict: ...
+
+    @property
+    def triangle_count(self) -> int: ...
+
     def describe(self) -> str: ...
-def load_scene(path: str) -> Scene: ...
 
-class PhotonMap:              # read-only numpy columns; see API.md. Properties return None when not recorded.
-    count: int
-    emitted: int
-    report: dict              # emitted, absorbed, escaped, truncated, ended_on_receiver (paths, int), flux {…} (W per channel), sampled_power, ...
-    settings: dict
-    positions: np.ndarray; normals: np.ndarray; power: np.ndarray; emitter: np.ndarray
-    emitted_index: np.ndarray; object: np.ndarray
-    path_offsets: np.ndarray | None; path_vertices: np.ndarray | None; path_normals: np.ndarray | None
-    path_interactions: np.ndarray | None; path_objects: np.ndarray | None; path_scatter: np.ndarray | None
-    origin: np.ndarray
-    tree: dict                # split_axis, split_value, first, count, box, order
-    def select(self, ids: np.ndarray) -> PhotonMap: ...
-def trace_photons(device: Device, scene: Scene, settings: dict, progress: Progress = None) -> PhotonMap: ...
-    # settings: count, emitted (0 = by count), seed, emission, store, max_bounces, paths (bool)
-def photons_from_columns(device: Device, columns: dict, meta: dict) -> PhotonMap: ...
-def find_neighbors(device: Device, photons: PhotonMap, points: np.ndarray | None, ids: np.ndarray | None, k: int, progress: Progress = None) -> tuple[np.ndarray, np.ndarray]: ...
-def estimate_irradiance(device: Device, photons: PhotonMap, points: np.ndarray, normals: np.ndarray, k: int, kernel: str, progress: Progress = None) -> np.ndarray: ...
-def render_image(device: Device, scene: Scene, photons: PhotonMap | None, settings: dict, progress: Progress = None) -> np.ndarray: ...
-    # settings: camera (name or ""), width, height, samples, mode, k, kernel, seed
-def write_exr(path: str, pixels: np.ndarray, attributes: dict[str, str]) -> None: ...
-def read_exr(path: str) -> tuple[np.ndarray, dict[str, str]]: ...
-def write_png(path: str, pixels: np.ndarray, exposure: float, attributes: dict[str, str]) -> None: ...   # linear in; clip(linear * 2^exposure), sRGB curve
-def read_png(path: str) -> tuple[np.ndarray, dict[str, str]]: ...   # uint8 (h, w, 3)
-def encode_png(pixels: np.ndarray, exposure: float, attributes: dict[str, str]) -> bytes: ...
+def load_scene(path: str) -> Scene:
+    """Read a glTF scene (.gltf or .glb)."""
+
+class PhotonMap:
+    @property
+    def count(self) -> int: ...
+
+    @property
+    def emitted(self) -> int: ...
+
+    @property
+    def origin(self) -> list[float]: ...
+
+    @property
+    def report(self) -> dict: ...
+
+    def tree(self, device: Device) -> dict: ...
+
+    @property
+    def positions(self) -> object: ...
+
+    @property
+    def normals(self) -> object: ...
+
+    @property
+    def power(self) -> object: ...
+
+    @property
+    def emitter(self) -> object: ...
+
+    @property
+    def emitted_index(self) -> object: ...
+
+    @property
+    def object(self) -> object: ...
+
+    @property
+    def path_vertices(self) -> object: ...
+
+    @property
+    def path_offsets(self) -> object: ...
+
+    @property
+    def path_normals(self) -> object: ...
+
+    @property
+    def path_interactions(self) -> object: ...
+
+    @property
+    def path_objects(self) -> object: ...
+
+    @property
+    def path_scatter(self) -> object: ...
+
+def photons_from_columns(device: Device, columns: dict, store: str = 'caustic') -> PhotonMap:
+    """Upload checked columns as a photon map."""
+
+def find_neighbors(device: Device, photons: PhotonMap, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', writable=False)] | None, ids: Annotated[NDArray[numpy.uint32], dict(shape=(None,), order='C', writable=False)] | None, k: int, progress: object | None = None) -> tuple:
+    """
+    The k nearest photons of points (n, 3), or of photons by id (n,); exactly one is not None.
+    """
+
+def trace_photons(device: Device, scene: Scene, settings: dict, progress: object | None = None) -> PhotonMap:
+    """
+    Trace photons; settings: count, emitted, seed, emission, store, max_bounces, paths.
+    """
+
+def estimate_irradiance(device: Device, photons: PhotonMap, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', writable=False)], normals: Annotated[NDArray[numpy.float32], dict(shape=(None, 3), order='C', writable=False)], k: int, kernel: str, progress: object | None = None) -> object:
+    """Irradiance (n, 3) in W/m² at points with unit normals."""
+
+def render_image(device: Device, scene: Scene, photons: object | None, settings: dict, progress: object | None = None) -> object:
+    """
+    Linear radiance (height, width, 3); settings: camera, width, height, samples, mode, k, kernel, seed.
+    """
+
+def write_exr(path: str, pixels: Annotated[NDArray[numpy.float32], dict(shape=(None, None, 3), order='C', writable=False)], attributes: Mapping[str, str]) -> None: ...
+
+def read_exr(path: str) -> tuple: ...
+
+def write_png(path: str, pixels: Annotated[NDArray[numpy.float32], dict(shape=(None, None, 3), order='C', writable=False)], exposure: float, attributes: Mapping[str, str]) -> None: ...
+
+def encode_png(pixels: Annotated[NDArray[numpy.float32], dict(shape=(None, None, 3), order='C', writable=False)], exposure: float, attributes: Mapping[str, str]) -> bytes: ...
+
+def read_png(path: str) -> tuple: ...

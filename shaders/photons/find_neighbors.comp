@@ -30,7 +30,9 @@ float measure_limit(Query query, float distance2) { return distance2; }
 
 layout(push_constant) uniform Push { NeighborQuery settings; };
 
+// Lanes without a candidate read scratch that nobody wrote: by address no descriptor would stop them.
 Candidate load_candidate(uint position) {
+    position = min(position, settings.photon_count - 1u);
     vec4 photon = tree_positions_at(position);
     return Candidate(photon.xyz, floatBitsToUint(photon.w));
 }

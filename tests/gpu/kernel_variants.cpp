@@ -20,16 +20,17 @@ const std::vector<std::string> DIELECTRIC{"", "HAS_DIELECTRIC"};
 const std::vector<std::string> ABSORPTION{"", "HAS_ABSORPTION"};
 const std::vector<std::string> LIGHTS{"", "HAS_SEVERAL_LIGHTS"};
 const std::vector<std::string> CAPACITY{"CAPACITY 128u", "CAPACITY 256u"};
-// Written out per capacity by engine/photons/query_tree.cpp; nothing stands for them here.
-const std::vector<std::string> NETWORK{"SORT_NETWORK"}, LOAD{"LOAD_KEYS"}, STORE{"STORE_KEYS"};
+// Three of these are code that engine/photons/query_tree.cpp writes; nothing stands for them here.
+const std::vector<std::string> BLOCK{"SORT_BLOCK 128u"}, NETWORK{"SORT_NETWORK"}, LOAD{"LOAD_KEYS"},
+    STORE{"STORE_KEYS"};
 const std::vector<std::string> KERNELS{"KERNEL 0", "KERNEL 1", "KERNEL 2", "KERNEL 3"};
 
 // Kernels that are not named here take no defines.
 const std::map<std::string, Factors> FACTORS{
-    {"estimate/estimate_irradiance.comp", {KERNELS, CAPACITY, NETWORK, LOAD, STORE}},
+    {"estimate/estimate_irradiance.comp", {KERNELS, CAPACITY, BLOCK, NETWORK, LOAD, STORE}},
     {"estimate/select_irradiance.comp", {KERNELS}},
     {"estimate/trace_eye.comp", {MIRROR, DIELECTRIC, ABSORPTION}},
-    {"photons/find_neighbors.comp", {CAPACITY, NETWORK, LOAD, STORE}},
+    {"photons/find_neighbors.comp", {CAPACITY, BLOCK, NETWORK, LOAD, STORE}},
     {"trace/shoot_photons.comp", {STORES, EMISSIONS, PATHS, MIRROR, DIELECTRIC, ABSORPTION, LIGHTS}},
     {"trace/write_photons.comp", {PATHS}},
 };
