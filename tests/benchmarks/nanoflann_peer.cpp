@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Answers "load FILE", "build" and "knn K" on standard input with nanoflann's times; compiled by peer_nanoflann.py.
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -12,6 +13,10 @@
 #include <string>
 #include <thread>
 #include <vector>
+
+#if NANOFLANN_VERSION < 0x140
+#error "nanoflann 1.4 or newer is needed: its constructor builds the tree"
+#endif
 
 namespace {
 
@@ -76,8 +81,9 @@ int main() {
             tree.reset();
             load(cloud, value);
         } else if (verb == "build") {
+            tree.reset();
+            start = now();
             tree = std::make_unique<Tree>(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(LEAF_PHOTONS));
-            tree->buildIndex();
         } else {
             const std::size_t k = std::stoul(value) + 1; // the photon itself comes first
             const std::size_t size = k * cloud.kdtree_get_point_count();

@@ -54,7 +54,7 @@ class Nanoflann:
         return self._ask("build -")[0]
 
     def find(self, k: int) -> tuple[float, float]:
-        """Seconds for the k nearest of every photon on all cores; mean distance, times k / (k + 1)."""
+        """Seconds for the k nearest of every photon on all cores; mean distance, the photon itself (0) included."""
         return self._ask(f"knn {k}")
 
     def close(self) -> None:

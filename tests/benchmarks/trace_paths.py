@@ -3,11 +3,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import photonloupe as pl
 from find_llvm import find_llvm
 from measure import (
+    Round,
     Row,
     Subject,
     compare_speed,
@@ -47,16 +46,16 @@ def measure_scene(subject: Subject, name: str, emission: str) -> None:
     def run_ours(number: int) -> None:
         kept[:] = [trace_ours(name, 100 + number, emission, paths=True)]
 
-    rounds: dict[str, Callable[[int], float | None]] = {
+    rounds: dict[str, Round] = {
         "ours": run_ours,
-        "bare": lambda number: trace_ours(name, 200 + number, emission, paths=False) and None,
+        "bare": lambda number: trace_ours(name, 200 + number, emission, paths=False),
     }
     tracer = None
     if not find_llvm():
         import peer_tracer  # noqa: PLC0415 - an optional peer
 
         tracer = peer_tracer.DrjitTracer(name)
-        rounds = {"peer": lambda number: tracer.trace(PATHS, number + 1, emission) and None, **rounds}
+        rounds = {"peer": lambda number: tracer.trace(PATHS, number + 1, emission), **rounds}
     seconds = time_in_turn(rounds)
     ours = find_median(seconds["ours"])
     bare = find_median(seconds["bare"])
