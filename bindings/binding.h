@@ -33,12 +33,22 @@ template <class T, std::size_t Width>
 using Matrix = nb::ndarray<nb::numpy, T, nb::shape<-1, static_cast<nb::ssize_t>(Width)>, nb::c_contig>;
 
 // An array of rows that takes the vector's memory along.
-template <class T> nb::object own_array(std::vector<T>&& values, std::size_t width = 0) {
+template <class T>
+nb::ndarray<nb::numpy, T> own_array(std::vector<T>&& values, std::size_t width = 0) {
     auto* kept = new std::vector<T>(std::move(values));
     nb::capsule owner(kept, [](void* pointer) noexcept { delete static_cast<std::vector<T>*>(pointer); });
     const std::size_t rows = width == 0 ? kept->size() : kept->size() / width;
     const std::size_t shape[2] = {rows, width};
-    return nb::cast(nb::ndarray<nb::numpy, T>(kept->data(), width == 0 ? 1 : 2, shape, owner));
+    return nb::ndarray<nb::numpy, T>(kept->data(), width == 0 ? 1 : 2, shape, owner);
+}
+
+// The same for pixels: (height, width, 3).
+template <class T>
+nb::ndarray<nb::numpy, T, nb::ndim<3>> own_pixels(std::vector<T>&& values, std::size_t height, std::size_t width) {
+    auto* kept = new std::vector<T>(std::move(values));
+    nb::capsule owner(kept, [](void* pointer) noexcept { delete static_cast<std::vector<T>*>(pointer); });
+    const std::size_t shape[3] = {height, width, 3};
+    return nb::ndarray<nb::numpy, T, nb::ndim<3>>(kept->data(), 3, shape, owner);
 }
 
 // Long work runs without the GIL; between chunks the callback is asked and signals are taken.
@@ -47,7 +57,8 @@ public:
     explicit PythonProgress(nb::object callback) : m_callback(std::move(callback)) {}
 
     // Runs `work(progress)` without the GIL. What the callback or a signal raised comes out as it was raised.
-    template <class Work> auto run(const Work& work) {
+    template <class Work>
+    auto run(const Work& work) {
         const Progress progress{[this](std::string_view stage, double fraction) { return ask(stage, fraction); }};
         try {
             nb::gil_scoped_release release;

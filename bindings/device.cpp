@@ -45,12 +45,15 @@ nb::list list_timings(OpenDevice& open) {
 } // namespace
 
 void bind_device(nb::module_& module) {
-    module.def("list_devices", [] {
-        nb::list rows;
-        for (const gpu::DeviceInfo& info : gpu::list_devices())
-            rows.append(describe(info));
-        return rows;
-    }, "Every Vulkan device of this machine.");
+    module.def(
+        "list_devices",
+        [] {
+            nb::list rows;
+            for (const gpu::DeviceInfo& info : gpu::list_devices())
+                rows.append(describe(info));
+            return rows;
+        },
+        "Every Vulkan device of this machine.");
     nb::class_<OpenDevice>(module, "Device")
         .def(nb::init<const std::string&>(), nb::arg("selector") = "auto")
         .def_prop_ro("info", &describe_open)

@@ -31,8 +31,9 @@ RenderMode parse_mode(const std::string& name) {
     throw Error("mode is '" + name + "'; it must be composite, caustic, direct or photons");
 }
 
-nb::object estimate(OpenDevice& open, Photons& photons, Matrix<const double, 3> points,
-                    Matrix<const float, 3> normals, std::uint32_t k, const std::string& kernel, nb::object progress) {
+nb::ndarray<nb::numpy, float> estimate(OpenDevice& open, Photons& photons, Matrix<const double, 3> points,
+                                       Matrix<const float, 3> normals, std::uint32_t k, const std::string& kernel,
+                                       nb::object progress) {
     const std::vector<glm::vec4> local = localize_points(photons.map, {points.data(), points.size()});
     std::vector<glm::vec4> directions(normals.shape(0));
     for (std::size_t i = 0; i < directions.size(); ++i)
@@ -61,17 +62,14 @@ RenderSettings read_settings(const nb::dict& given) {
     return settings;
 }
 
-nb::object render(OpenDevice& open, const Scene& scene, nb::object photons, const nb::dict& given,
-                  nb::object progress) {
+nb::ndarray<nb::numpy, float, nb::ndim<3>> render(OpenDevice& open, const Scene& scene, nb::object photons,
+                                                  const nb::dict& given, nb::object progress) {
     const RenderSettings settings = read_settings(given);
     Photons* map = photons.is_none() ? nullptr : nb::cast<Photons*>(photons);
     Image image = PythonProgress(std::move(progress)).run([&](const Progress& asked) {
         return open.workbench.render(scene, map, settings, asked);
     });
-    auto* kept = new std::vector<float>(std::move(image.rgb));
-    nb::capsule owner(kept, [](void* pointer) noexcept { delete static_cast<std::vector<float>*>(pointer); });
-    const std::size_t shape[3] = {image.height, image.width, 3};
-    return nb::cast(nb::ndarray<nb::numpy, float>(kept->data(), 3, shape, owner));
+    return own_pixels(std::move(image.rgb), image.height, image.width);
 }
 
 } // namespace

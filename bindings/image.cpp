@@ -16,34 +16,42 @@ Image take_image(const Pixels& pixels, Attributes attributes) {
             std::vector<float>(pixels.data(), pixels.data() + pixels.size()), std::move(attributes)};
 }
 
-template <class T> nb::object give_pixels(std::vector<T>&& values, std::size_t height, std::size_t width) {
-    auto* kept = new std::vector<T>(std::move(values));
-    nb::capsule owner(kept, [](void* pointer) noexcept { delete static_cast<std::vector<T>*>(pointer); });
-    const std::size_t shape[3] = {height, width, 3};
-    return nb::cast(nb::ndarray<nb::numpy, T>(kept->data(), 3, shape, owner));
-}
-
 } // namespace
 
 void bind_image(nb::module_& module) {
-    module.def("write_exr", [](const std::string& path, const Pixels& pixels, Attributes attributes) {
-        write_exr(path, take_image(pixels, std::move(attributes)));
-    }, nb::arg("path"), nb::arg("pixels"), nb::arg("attributes"));
-    module.def("read_exr", [](const std::string& path) {
-        Image image = read_exr(path);
-        return nb::make_tuple(give_pixels(std::move(image.rgb), image.height, image.width), image.attributes);
-    }, nb::arg("path"));
-    module.def("write_png", [](const std::string& path, const Pixels& pixels, double exposure, Attributes attributes) {
-        write_png(path, take_image(pixels, std::move(attributes)), exposure);
-    }, nb::arg("path"), nb::arg("pixels"), nb::arg("exposure"), nb::arg("attributes"));
-    module.def("encode_png", [](const Pixels& pixels, double exposure, Attributes attributes) {
-        const std::vector<unsigned char> bytes = encode_png(take_image(pixels, std::move(attributes)), exposure);
-        return nb::bytes(bytes.data(), bytes.size());
-    }, nb::arg("pixels"), nb::arg("exposure"), nb::arg("attributes"));
-    module.def("read_png", [](const std::string& path) {
-        PngImage image = read_png(path);
-        return nb::make_tuple(give_pixels(std::move(image.rgb), image.height, image.width), image.attributes);
-    }, nb::arg("path"));
+    module.def(
+        "write_exr",
+        [](const std::string& path, const Pixels& pixels, Attributes attributes) {
+            write_exr(path, take_image(pixels, std::move(attributes)));
+        },
+        nb::arg("path"), nb::arg("pixels"), nb::arg("attributes"));
+    module.def(
+        "read_exr",
+        [](const std::string& path) {
+            Image image = read_exr(path);
+            return nb::make_tuple(own_pixels(std::move(image.rgb), image.height, image.width), image.attributes);
+        },
+        nb::arg("path"));
+    module.def(
+        "write_png",
+        [](const std::string& path, const Pixels& pixels, double exposure, Attributes attributes) {
+            write_png(path, take_image(pixels, std::move(attributes)), exposure);
+        },
+        nb::arg("path"), nb::arg("pixels"), nb::arg("exposure"), nb::arg("attributes"));
+    module.def(
+        "encode_png",
+        [](const Pixels& pixels, double exposure, Attributes attributes) {
+            const std::vector<unsigned char> bytes = encode_png(take_image(pixels, std::move(attributes)), exposure);
+            return nb::bytes(bytes.data(), bytes.size());
+        },
+        nb::arg("pixels"), nb::arg("exposure"), nb::arg("attributes"));
+    module.def(
+        "read_png",
+        [](const std::string& path) {
+            PngImage image = read_png(path);
+            return nb::make_tuple(own_pixels(std::move(image.rgb), image.height, image.width), image.attributes);
+        },
+        nb::arg("path"));
 }
 
 } // namespace photonloupe::bindings

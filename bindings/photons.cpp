@@ -2,7 +2,6 @@
 // Binds engine/photons: columns as NumPy arrays (views where the memory is shared), the tree, neighbours.
 #include "binding.h"
 
-
 #include "photons/map_columns.h"
 
 namespace photonloupe::bindings {
@@ -18,16 +17,21 @@ nb::object view_rgb(nb::handle self, const gpu::Buffer& buffer, std::uint64_t co
     std::vector<float> values;
     for (const glm::vec4& packed : buffer.read<glm::vec4>(count))
         values.insert(values.end(), {packed.x, packed.y, packed.z});
-    return own_array(std::move(values), 3);
+    return nb::cast(own_array(std::move(values), 3));
 }
 
-bool is_at_origin(const PhotonMap& map) { return map.origin == std::array<double, 3>{}; }
+bool is_at_origin(const PhotonMap& map) {
+    return map.origin == std::array<double, 3>{};
+}
 
-const Photons& unwrap(nb::handle self) { return nb::cast<const Photons&>(self); }
+const Photons& unwrap(nb::handle self) {
+    return nb::cast<const Photons&>(self);
+}
 
 nb::object view_positions(nb::handle self) {
     const PhotonMap& map = unwrap(self).map;
-    return is_at_origin(map) ? view_rgb(self, map.position_emitter, map.count) : own_array(read_positions(map), 3);
+    return is_at_origin(map) ? view_rgb(self, map.position_emitter, map.count)
+                             : nb::cast(own_array(read_positions(map), 3));
 }
 
 nb::object view_path_vertices(nb::handle self) {
@@ -35,14 +39,14 @@ nb::object view_path_vertices(nb::handle self) {
     if (!map.paths)
         return nb::none();
     return is_at_origin(map) ? view_rgb(self, map.paths->vertices, map.paths->vertex_count)
-                             : own_array(read_path_vertices(*map.paths, map.origin), 3);
+                             : nb::cast(own_array(read_path_vertices(*map.paths, map.origin), 3));
 }
 
 nb::object read_scatter(const PathColumns& paths) {
     std::vector<float> values;
     for (const glm::vec4& normal : paths.normals.read<glm::vec4>(paths.vertex_count))
         values.push_back(normal.w);
-    return own_array(std::move(values));
+    return nb::cast(own_array(std::move(values)));
 }
 
 nb::dict describe_report(const Photons& photons) {
@@ -80,7 +84,8 @@ nb::dict describe_tree(Photons& photons, Workbench& workbench) {
     return row;
 }
 
-template <class T> std::span<const T> take_span(const nb::dict& columns, const char* name) {
+template <class T>
+std::span<const T> take_span(const nb::dict& columns, const char* name) {
     const auto array = nb::cast<nb::ndarray<nb::numpy, const T, nb::c_contig>>(columns[name]);
     return {array.data(), array.size()};
 }
@@ -117,23 +122,22 @@ nb::tuple find_near(OpenDevice& open, Photons& photons, std::optional<Matrix<con
 }
 
 // A column of the paths, or None when they were not recorded.
-template <class Read> auto path_column(const Read& read) {
+template <class Read>
+auto path_column(const Read& read) {
     return [read](nb::handle self) -> nb::object {
         const PhotonMap& map = unwrap(self).map;
-        return map.paths ? read(self, map) : nb::none();
+        return map.paths ? nb::object(nb::cast(read(self, map))) : nb::none();
     };
 }
 
 void bind_columns(nb::class_<Photons>& type) {
     type.def_prop_ro("positions", &view_positions)
-        .def_prop_ro("normals",
-                     [](nb::handle self) {
-                         return view_rgb(self, unwrap(self).map.normal_index, unwrap(self).map.count);
-                     })
-        .def_prop_ro("power",
-                     [](nb::handle self) {
-                         return view_rgb(self, unwrap(self).map.power_object, unwrap(self).map.count);
-                     })
+        .def_prop_ro(
+            "normals",
+            [](nb::handle self) { return view_rgb(self, unwrap(self).map.normal_index, unwrap(self).map.count); })
+        .def_prop_ro(
+            "power",
+            [](nb::handle self) { return view_rgb(self, unwrap(self).map.power_object, unwrap(self).map.count); })
         .def_prop_ro("emitter", [](const Photons& photons) { return own_array(read_emitters(photons.map)); })
         .def_prop_ro("emitted_index",
                      [](const Photons& photons) { return own_array(read_emitted_indices(photons.map)); })
@@ -151,9 +155,8 @@ void bind_columns(nb::class_<Photons>& type) {
         .def_prop_ro("path_objects", path_column([](nb::handle, const PhotonMap& map) {
                          return own_array(read_path_objects(*map.paths));
                      }))
-        .def_prop_ro("path_scatter", path_column([](nb::handle, const PhotonMap& map) {
-                         return read_scatter(*map.paths);
-                     }));
+        .def_prop_ro("path_scatter",
+                     path_column([](nb::handle, const PhotonMap& map) { return read_scatter(*map.paths); }));
 }
 
 } // namespace
@@ -164,8 +167,9 @@ void bind_photons(nb::module_& module) {
         .def_prop_ro("emitted", [](const Photons& photons) { return photons.report.emitted; })
         .def_prop_ro("origin", [](const Photons& photons) { return photons.map.origin; })
         .def_prop_ro("report", &describe_report)
-        .def("tree", [](Photons& photons, OpenDevice& open) { return describe_tree(photons, open.workbench); },
-             nb::arg("device"));
+        .def(
+            "tree", [](Photons& photons, OpenDevice& open) { return describe_tree(photons, open.workbench); },
+            nb::arg("device"));
     bind_columns(type);
     module.def("photons_from_columns", &make_photons, nb::arg("device"), nb::arg("columns"),
                nb::arg("store") = "caustic", nb::keep_alive<0, 1>(), "Upload checked columns as a photon map.");

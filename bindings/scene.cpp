@@ -42,7 +42,9 @@ nb::list list_lights(const Scene& scene) {
     return rows;
 }
 
-std::array<double, 3> take_rgb(const glm::vec4& v) { return {v.r, v.g, v.b}; }
+std::array<double, 3> take_rgb(const glm::vec4& v) {
+    return {v.r, v.g, v.b};
+}
 
 nb::list list_materials(const Scene& scene) {
     nb::list rows;
@@ -92,8 +94,7 @@ void bind_scene(nb::module_& module) {
         .def_prop_ro("path", [](const Scene& scene) { return scene.path.string(); })
         .def_ro("hash", &Scene::hash)
         .def_ro("origin", &Scene::origin)
-        .def_prop_ro("bounds",
-                     [](const Scene& scene) { return nb::make_tuple(scene.bounds.lo, scene.bounds.hi); })
+        .def_prop_ro("bounds", [](const Scene& scene) { return nb::make_tuple(scene.bounds.lo, scene.bounds.hi); })
         .def_prop_ro("cameras", &list_cameras)
         .def_prop_ro("lights", &list_lights)
         .def_prop_ro("materials", &list_materials)
@@ -101,8 +102,9 @@ void bind_scene(nb::module_& module) {
         .def_prop_ro("report", &describe_report)
         .def_prop_ro("triangle_count", [](const Scene& scene) { return scene.triangles.size(); })
         .def("describe", &describe_scene);
-    module.def("load_scene", [](const std::string& path) { return load_scene(path); }, nb::arg("path"),
-               nb::call_guard<nb::gil_scoped_release>(), "Read a glTF scene (.gltf or .glb).");
+    module.def(
+        "load_scene", [](const std::string& path) { return load_scene(path); }, nb::arg("path"),
+        nb::call_guard<nb::gil_scoped_release>(), "Read a glTF scene (.gltf or .glb).");
 }
 
 } // namespace photonloupe::bindings

@@ -7,10 +7,10 @@ namespace {
 
 std::string make_key(const Scene& scene, const TraceSettings& settings) {
     std::string key = scene.hash;
-    for (const std::uint64_t value : {settings.count, settings.emitted, std::uint64_t{settings.seed},
-                                      static_cast<std::uint64_t>(settings.emission),
-                                      static_cast<std::uint64_t>(settings.store),
-                                      std::uint64_t{settings.max_bounces}, std::uint64_t{settings.paths}})
+    for (const std::uint64_t value :
+         {settings.count, settings.emitted, std::uint64_t{settings.seed}, static_cast<std::uint64_t>(settings.emission),
+          static_cast<std::uint64_t>(settings.store), std::uint64_t{settings.max_bounces},
+          std::uint64_t{settings.paths}})
         key += '/' + std::to_string(value);
     return key;
 }
@@ -34,8 +34,8 @@ std::shared_ptr<Photons> Workbench::trace_photons(const Scene& scene, const Trac
         if (std::shared_ptr<Photons> traced = m_traced.lock())
             return traced;
     TracedPhotons traced = photonloupe::trace_photons(m_device, scene, find_buffers(scene), settings, progress);
-    auto photons = std::make_shared<Photons>(
-        Photons{std::move(traced.map), traced.report, settings.store, std::nullopt});
+    auto photons =
+        std::make_shared<Photons>(Photons{std::move(traced.map), traced.report, settings.store, std::nullopt});
     m_traced = photons;
     m_traced_key = key;
     return photons;
@@ -65,8 +65,8 @@ gpu::Buffer Workbench::estimate_irradiance(Photons& photons, std::span<const glm
     require_k(settings.k);
     const KdTree& tree = find_tree(photons, progress);
     return photonloupe::estimate_irradiance(m_device, photons.map, tree, gpu::make_buffer(m_device, points, "points"),
-                                            gpu::make_buffer(m_device, normals, "normals"), order_points(points), settings,
-                                            progress);
+                                            gpu::make_buffer(m_device, normals, "normals"), order_points(points),
+                                            settings, progress);
 }
 
 Image Workbench::render(const Scene& scene, Photons* photons, const RenderSettings& settings,

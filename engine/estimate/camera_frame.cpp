@@ -13,8 +13,12 @@ namespace {
 
 using glm::dvec3;
 
-dvec3 to_vector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
-std::array<double, 3> to_array(const dvec3& v) { return {v.x, v.y, v.z}; }
+dvec3 to_vector(const std::array<double, 3>& v) {
+    return {v[0], v[1], v[2]};
+}
+std::array<double, 3> to_array(const dvec3& v) {
+    return {v.x, v.y, v.z};
+}
 
 // Looks down at the bounds from above and in front, far enough to see all of them.
 Camera fit_camera(const Scene& scene) {

@@ -25,24 +25,25 @@ gpu::Buffer estimate_irradiance(gpu::Device& device, const PhotonMap& photons, c
     shared::NeighborQuery push{};
     push.k = settings.k;
     push.flatness = settings.flatness;
-    run_queries(device, tree, kernels, order, push, "estimate irradiance",
-                [&](gpu::Commands& commands, const gpu::KernelSource& kernel, const QueryBuffers& buffers,
-                    const shared::NeighborQuery& query, std::uint64_t invocations) {
-                    commands.dispatch(kernel,
-                                      {{"tree_nodes", tree.nodes},
-                                       {"tree_positions", tree.positions},
-                                       {"candidates", buffers.candidates},
-                                       {"ranked", buffers.ranked},
-                                       {"unanswered", buffers.unanswered},
-                                       {"tree_normals", tree.normals},
-                                       {"power_object", photons.power_object},
-                                       {"query_points", points},
-                                       {"query_normals", normals},
-                                       {"query_order", buffers.order},
-                                       {"irradiance", irradiance}},
-                                      query, invocations);
-                },
-                progress);
+    run_queries(
+        device, tree, kernels, order, push, "estimate irradiance",
+        [&](gpu::Commands& commands, const gpu::KernelSource& kernel, const QueryBuffers& buffers,
+            const shared::NeighborQuery& query, std::uint64_t invocations) {
+            commands.dispatch(kernel,
+                              {{"tree_nodes", tree.nodes},
+                               {"tree_positions", tree.positions},
+                               {"candidates", buffers.candidates},
+                               {"ranked", buffers.ranked},
+                               {"unanswered", buffers.unanswered},
+                               {"tree_normals", tree.normals},
+                               {"power_object", photons.power_object},
+                               {"query_points", points},
+                               {"query_normals", normals},
+                               {"query_order", buffers.order},
+                               {"irradiance", irradiance}},
+                              query, invocations);
+        },
+        progress);
     return irradiance;
 }
 

@@ -157,8 +157,7 @@ Image render_image(gpu::Device& device, const Scene& scene, const SceneBuffers& 
     renderer.film_push.light_count = static_cast<std::uint32_t>(scene.lights.size());
     renderer.film_push.uses_emission = settings.mode != RenderMode::caustic;
     renderer.film_push.uses_map = settings.mode == RenderMode::caustic || is_composite;
-    renderer.film_push.uses_direct =
-        settings.mode == RenderMode::direct || (is_composite && map->store != Store::all);
+    renderer.film_push.uses_direct = settings.mode == RenderMode::direct || (is_composite && map->store != Store::all);
     return renderer.run(progress);
 }
 

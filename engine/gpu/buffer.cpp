@@ -16,7 +16,9 @@ namespace {
 constexpr std::uint64_t STAGING_BYTES = 64ull << 20;
 constexpr std::uint64_t SMALLEST_BUFFER_BYTES = 16;
 
-std::string describe_mebibytes(std::uint64_t bytes) { return std::to_string((bytes + (1u << 20) - 1) >> 20) + " MiB"; }
+std::string describe_mebibytes(std::uint64_t bytes) {
+    return std::to_string((bytes + (1u << 20) - 1) >> 20) + " MiB";
+}
 
 } // namespace
 
@@ -70,15 +72,17 @@ VkBufferView Buffer::Impl::view_texels() {
     info.buffer = buffer;
     info.format = VK_FORMAT_R32G32B32A32_SFLOAT;
     info.range = capacity_bytes;
-    check(device->impl().table.vkCreateBufferView(device->impl().device, &info, nullptr, &texels), "vkCreateBufferView");
+    check(device->impl().table.vkCreateBufferView(device->impl().device, &info, nullptr, &texels),
+          "vkCreateBufferView");
     return texels;
 }
 
 Buffer::Buffer(Device& device, std::uint64_t size_bytes, const char* purpose) {
     const DeviceLimits& limits = device.limits();
     if (size_bytes > limits.max_allocation_bytes)
-        throw MemoryError(std::string(purpose) + ": " + describe_mebibytes(size_bytes) + " in one buffer, the device allows " +
-                          describe_mebibytes(limits.max_allocation_bytes) + "; ask for fewer photons");
+        throw MemoryError(std::string(purpose) + ": " + describe_mebibytes(size_bytes) +
+                          " in one buffer, the device allows " + describe_mebibytes(limits.max_allocation_bytes) +
+                          "; ask for fewer photons");
     if (const std::uint64_t available = device.available_bytes(); size_bytes > available)
         throw MemoryError(std::string(purpose) + ": " + describe_mebibytes(size_bytes) + " needed, " +
                           describe_mebibytes(available) + " free on " + device.info().name +
@@ -91,7 +95,9 @@ Buffer::~Buffer() = default;
 Buffer::Buffer(Buffer&& other) noexcept = default;
 Buffer& Buffer::operator=(Buffer&& other) noexcept = default;
 
-std::uint64_t Buffer::size_bytes() const { return m_impl ? m_impl->size_bytes : 0; }
+std::uint64_t Buffer::size_bytes() const {
+    return m_impl ? m_impl->size_bytes : 0;
+}
 
 const void* Buffer::mapped() const {
     return m_impl && m_impl->device->limits().host_visible ? m_impl->mapped : nullptr;

@@ -29,7 +29,8 @@ public:
     void upload(const void* source, std::uint64_t size_bytes, std::uint64_t offset = 0);
     void download(void* target, std::uint64_t size_bytes, std::uint64_t offset = 0) const;
 
-    template <class T> std::vector<T> read(std::uint64_t count, std::uint64_t first = 0) const {
+    template <class T>
+    std::vector<T> read(std::uint64_t count, std::uint64_t first = 0) const {
         std::vector<T> values(count);
         download(values.data(), count * sizeof(T), first * sizeof(T));
         return values;
@@ -42,13 +43,15 @@ private:
     std::unique_ptr<Impl> m_impl;
 };
 
-template <class T> Buffer make_buffer(Device& device, std::span<const T> values, const char* purpose) {
+template <class T>
+Buffer make_buffer(Device& device, std::span<const T> values, const char* purpose) {
     Buffer buffer(device, values.size_bytes(), purpose);
     buffer.upload(values.data(), values.size_bytes());
     return buffer;
 }
 
-template <class T> Buffer make_buffer(Device& device, const std::vector<T>& values, const char* purpose) {
+template <class T>
+Buffer make_buffer(Device& device, const std::vector<T>& values, const char* purpose) {
     return make_buffer(device, std::span<const T>(values), purpose);
 }
 

@@ -45,8 +45,7 @@ struct Commands::Impl {
     std::uint64_t dispatch_count = 0;
     std::unique_lock<std::recursive_mutex> lock;
 
-    Impl(Device& owner, std::string name)
-        : device(owner), stage(std::move(name)), lock(owner.impl().mutex) {}
+    Impl(Device& owner, std::string name) : device(owner), stage(std::move(name)), lock(owner.impl().mutex) {}
     ~Impl();
     Device::Impl& gpu() { return device.impl(); }
     void begin();
@@ -157,21 +156,22 @@ VkDescriptorSet Commands::Impl::write_set(const Kernel& kernel, const std::vecto
         const Buffer& block = address_blocks.emplace_back(device, addresses.size() * 8, "buffer addresses");
         address_blocks.back().upload(addresses.data(), addresses.size() * 8);
         infos.back() = {block.impl().buffer, 0, VK_WHOLE_SIZE};
-        VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET, nullptr, set,
-                                   static_cast<std::uint32_t>(buffers.size()), 0, 1};
+        VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,     nullptr, set,
+                                   static_cast<std::uint32_t>(buffers.size()), 0,       1};
         write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
         write.pBufferInfo = &infos.back();
         writes.push_back(write);
     }
-    gpu().table.vkUpdateDescriptorSets(gpu().device, static_cast<std::uint32_t>(writes.size()), writes.data(), 0, nullptr);
+    gpu().table.vkUpdateDescriptorSets(gpu().device, static_cast<std::uint32_t>(writes.size()), writes.data(), 0,
+                                       nullptr);
     return set;
 }
 
 void Commands::Impl::wait_for_fence() {
     const auto deadline = std::chrono::duration<double>(read_deadline_seconds());
     const auto nanoseconds = std::chrono::duration_cast<std::chrono::nanoseconds>(deadline).count();
-    const VkResult result = gpu().table.vkWaitForFences(gpu().device, 1, &fence, VK_TRUE,
-                                                        static_cast<std::uint64_t>(nanoseconds));
+    const VkResult result =
+        gpu().table.vkWaitForFences(gpu().device, 1, &fence, VK_TRUE, static_cast<std::uint64_t>(nanoseconds));
     if (result == VK_SUCCESS)
         return;
     gpu().lost_because = stage + ": " +
@@ -205,7 +205,7 @@ std::uint64_t find_large(const Kernel& kernel, const std::vector<const Buffer*>&
     for (std::size_t index = 0; index < buffers.size(); ++index) {
         const std::uint64_t bytes = buffers[index]->size_bytes();
         const bool fits = kernel.bindings()[index].kind == BindingKind::texel ? bytes / 16 <= limits.max_texel_count
-                                                                               : bytes <= limits.max_storage_range;
+                                                                              : bytes <= limits.max_storage_range;
         mask |= static_cast<std::uint64_t>(!fits) << index;
     }
     return mask;
@@ -224,7 +224,8 @@ void Commands::record_dispatch(const KernelSource& source, std::initializer_list
     const VkDescriptorSet set = m_impl->write_set(kernel, buffers, by_address);
     const std::uint64_t groups = (invocations + kernel.workgroup_size() - 1) / kernel.workgroup_size();
     if (groups > m_impl->device.limits().max_group_count)
-        throw std::logic_error("dispatch of " + source.path + " exceeds the device's workgroup count; cut it in chunks");
+        throw std::logic_error("dispatch of " + source.path +
+                               " exceeds the device's workgroup count; cut it in chunks");
     const VolkDeviceTable& vk = m_impl->gpu().table;
     const VkCommandBuffer commands = m_impl->commands;
     vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, variant.pipeline);
@@ -266,8 +267,7 @@ double Commands::run() {
     VkMemoryBarrier to_host{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
     to_host.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
     to_host.dstAccessMask = VK_ACCESS_HOST_READ_BIT;
-    vk.vkCmdPipelineBarrier(m_impl->commands,
-                            VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+    vk.vkCmdPipelineBarrier(m_impl->commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
                             VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &to_host, 0, nullptr, 0, nullptr);
     check(vk.vkEndCommandBuffer(m_impl->commands), "vkEndCommandBuffer");
     const auto start = std::chrono::steady_clock::now();
@@ -276,8 +276,7 @@ double Commands::run() {
     submit.pCommandBuffers = &m_impl->commands;
     check(vk.vkQueueSubmit(gpu.queue, 1, &submit, m_impl->fence), "vkQueueSubmit");
     m_impl->wait_for_fence();
-    double milliseconds =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    double milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     gpu.instance->require_silent_validation();
     std::uint64_t ticks[2] = {};
     if (m_impl->queries && vk.vkGetQueryPoolResults(gpu.device, m_impl->queries, 0, 2, sizeof ticks, ticks, 8,
@@ -290,8 +289,8 @@ double Commands::run() {
 }
 
 void run_in_chunks(Device& device, const std::string& stage, std::uint64_t total, std::uint64_t granule,
-                   const Progress& progress,
-                   const std::function<void(Commands&, std::uint64_t, std::uint64_t)>& record, std::uint64_t largest) {
+                   const Progress& progress, const std::function<void(Commands&, std::uint64_t, std::uint64_t)>& record,
+                   std::uint64_t largest) {
     std::uint64_t chunk = granule;
     for (std::uint64_t first = 0; first < total;) {
         progress.report(stage, static_cast<double>(first) / static_cast<double>(total));

@@ -7,9 +7,9 @@
 #include <iterator>
 #include <mutex>
 
-#include <glslang/SPIRV/GlslangToSpv.h>
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
+#include <glslang/SPIRV/GlslangToSpv.h>
 #include <glslang/build_info.h>
 
 #include "core/atomic_file.h"

@@ -81,11 +81,16 @@ std::string find_missing_requirement(VkPhysicalDevice device, const Properties& 
 
 std::string name_type(VkPhysicalDeviceType type) {
     switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return "discrete";
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return "integrated";
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return "virtual";
-    case VK_PHYSICAL_DEVICE_TYPE_CPU: return "software";
-    default: return "other";
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+        return "discrete";
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+        return "integrated";
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+        return "virtual";
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+        return "software";
+    default:
+        return "other";
     }
 }
 
@@ -148,7 +153,8 @@ std::pair<int, std::string> choose_device(const std::vector<DeviceInfo>& infos, 
     for (const DeviceInfo& info : infos)
         if (is_index ? info.index == index : info.name.find(selector) != std::string::npos) {
             if (!info.usable)
-                throw DeviceError("device '" + info.name + "' " + info.reason + "; choose another: " + list_names(infos));
+                throw DeviceError("device '" + info.name + "' " + info.reason +
+                                  "; choose another: " + list_names(infos));
             return {info.index, "asked for by '" + selector + "'"};
         }
     throw DeviceError("no device matches '" + selector + "'; there are " + list_names(infos));
@@ -260,7 +266,9 @@ std::uint64_t read_available_host_bytes() {
 
 } // namespace
 
-std::vector<DeviceInfo> list_devices() { return describe_devices(*Instance::acquire()); }
+std::vector<DeviceInfo> list_devices() {
+    return describe_devices(*Instance::acquire());
+}
 
 Device::Device(const std::string& selector) : m_impl(std::make_unique<Impl>()) {
     m_impl->instance = Instance::acquire();
@@ -281,7 +289,8 @@ Device::~Device() = default;
 Device::Impl::~Impl() {
     if (!device)
         return;
-    // After a missed deadline the work may still be running: its objects must outlive it, so they are left to the process's end.
+    // After a missed deadline the work may still be running: its objects must outlive it, so they are left to the
+    // process's end.
     if (!lost_because.empty())
         return;
     save_pipeline_cache(*this);
@@ -296,11 +305,21 @@ void Device::Impl::require_alive() const {
         throw DeviceError("this device can no longer be used (" + lost_because + "); open a new Device");
 }
 
-const DeviceInfo& Device::info() const { return m_impl->info; }
-const DeviceLimits& Device::limits() const { return m_impl->limits; }
-const std::string& Device::chosen_because() const { return m_impl->chosen_because; }
-std::string Device::validation_mode() const { return m_impl->instance->validation_mode(); }
-std::uint64_t Device::allocated_bytes() const { return m_impl->allocated_bytes; }
+const DeviceInfo& Device::info() const {
+    return m_impl->info;
+}
+const DeviceLimits& Device::limits() const {
+    return m_impl->limits;
+}
+const std::string& Device::chosen_because() const {
+    return m_impl->chosen_because;
+}
+std::string Device::validation_mode() const {
+    return m_impl->instance->validation_mode();
+}
+std::uint64_t Device::allocated_bytes() const {
+    return m_impl->allocated_bytes;
+}
 
 std::uint64_t Device::available_bytes() const {
     std::uint64_t available = m_impl->info.memory_bytes - std::min(m_impl->info.memory_bytes, m_impl->allocated_bytes);
@@ -322,6 +341,8 @@ void Device::record_timing(const std::string& stage, double milliseconds, std::u
     timing.dispatch_count += dispatch_count;
 }
 
-std::map<std::string, StageTiming> Device::take_timings() { return std::exchange(m_impl->timings, {}); }
+std::map<std::string, StageTiming> Device::take_timings() {
+    return std::exchange(m_impl->timings, {});
+}
 
 } // namespace photonloupe::gpu

@@ -25,7 +25,7 @@ struct Device::Impl {
     DeviceInfo info;
     DeviceLimits limits;
     std::string chosen_because;
-    std::string lost_because; // set once a wait has failed; every later use refuses with it
+    std::string lost_because;         // set once a wait has failed; every later use refuses with it
     bool fixes_subgroup_size = false; // pipelines must ask for limits.subgroup_size
     std::uint32_t memory_type_main = 0;
     std::uint32_t memory_type_staging = 0;

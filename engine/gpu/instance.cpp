@@ -15,8 +15,7 @@ namespace {
 
 constexpr const char* VALIDATION_LAYER = "VK_LAYER_KHRONOS_validation";
 
-VKAPI_ATTR VkBool32 VKAPI_CALL collect_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
-                                               VkDebugUtilsMessageTypeFlagsEXT,
+VKAPI_ATTR VkBool32 VKAPI_CALL collect_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                                const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
     const std::string_view id = data->pMessageIdName ? data->pMessageIdName : "";
     for (const AllowedMessage& allowed : ALLOWED_MESSAGES)
@@ -137,7 +136,8 @@ void Instance::require_silent_validation() {
     const std::string first = m_log.messages.front();
     const std::size_t count = m_log.messages.size();
     m_log.messages.clear();
-    throw DeviceError("Vulkan validation: " + first + (count > 1 ? " (and " + std::to_string(count - 1) + " more)" : ""));
+    throw DeviceError("Vulkan validation: " + first +
+                      (count > 1 ? " (and " + std::to_string(count - 1) + " more)" : ""));
 }
 
 } // namespace photonloupe::gpu

@@ -81,8 +81,8 @@ VkPipeline create_pipeline(const Device::Impl& device, const KernelSource& sourc
                   &specialization};
     info.layout = layout;
     VkPipeline pipeline = VK_NULL_HANDLE;
-    const VkResult result = device.table.vkCreateComputePipelines(device.device, device.pipeline_cache, 1, &info,
-                                                                  nullptr, &pipeline);
+    const VkResult result =
+        device.table.vkCreateComputePipelines(device.device, device.pipeline_cache, 1, &info, nullptr, &pipeline);
     device.table.vkDestroyShaderModule(device.device, module, nullptr);
     check(result, source.path.c_str());
     return pipeline;

@@ -46,7 +46,8 @@ VkPipelineCache load_pipeline_cache(const Device::Impl& impl) {
 void save_pipeline_cache(const Device::Impl& impl) {
     const std::filesystem::path path = find_cache_file(impl);
     std::size_t size = 0;
-    if (path.empty() || impl.table.vkGetPipelineCacheData(impl.device, impl.pipeline_cache, &size, nullptr) != VK_SUCCESS)
+    if (path.empty() ||
+        impl.table.vkGetPipelineCacheData(impl.device, impl.pipeline_cache, &size, nullptr) != VK_SUCCESS)
         return;
     // Drivers without a real cache return the bare header.
     if (size <= sizeof(VkPipelineCacheHeaderVersionOne))

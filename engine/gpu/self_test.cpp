@@ -14,7 +14,9 @@
 namespace photonloupe::gpu {
 namespace {
 
-bool is_same(float a, float b) { return (std::isnan(a) && std::isnan(b)) || std::memcmp(&a, &b, sizeof a) == 0; }
+bool is_same(float a, float b) {
+    return (std::isnan(a) && std::isnan(b)) || std::memcmp(&a, &b, sizeof a) == 0;
+}
 
 std::string compare(const std::vector<float>& numbers, const std::vector<glm::vec4>& results,
                     std::uint32_t subgroup_size) {

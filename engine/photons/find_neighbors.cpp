@@ -17,22 +17,23 @@ Neighbors answer(gpu::Device& device, const KdTree& tree, const gpu::Buffer& que
     shared::NeighborQuery settings{};
     settings.k = k;
     settings.exclude_self = exclude_self ? 1 : 0;
-    run_queries(device, tree, kernels, order, settings, "find neighbors",
-                [&](gpu::Commands& commands, const gpu::KernelSource& kernel, const QueryBuffers& buffers,
-                    const shared::NeighborQuery& push, std::uint64_t invocations) {
-                    commands.dispatch(kernel,
-                                      {{"tree_nodes", tree.nodes},
-                                       {"tree_positions", tree.positions},
-                                       {"candidates", buffers.candidates},
-                                       {"ranked", buffers.ranked},
-                                       {"unanswered", buffers.unanswered},
-                                       {"queries", queries},
-                                       {"query_order", buffers.order},
-                                       {"neighbor_ids", neighbors.ids},
-                                       {"neighbor_distances", neighbors.distances}},
-                                      push, invocations);
-                },
-                progress);
+    run_queries(
+        device, tree, kernels, order, settings, "find neighbors",
+        [&](gpu::Commands& commands, const gpu::KernelSource& kernel, const QueryBuffers& buffers,
+            const shared::NeighborQuery& push, std::uint64_t invocations) {
+            commands.dispatch(kernel,
+                              {{"tree_nodes", tree.nodes},
+                               {"tree_positions", tree.positions},
+                               {"candidates", buffers.candidates},
+                               {"ranked", buffers.ranked},
+                               {"unanswered", buffers.unanswered},
+                               {"queries", queries},
+                               {"query_order", buffers.order},
+                               {"neighbor_ids", neighbors.ids},
+                               {"neighbor_distances", neighbors.distances}},
+                              push, invocations);
+        },
+        progress);
     return neighbors;
 }
 

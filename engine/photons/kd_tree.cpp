@@ -16,7 +16,8 @@
 namespace photonloupe {
 namespace {
 
-// Nodes with more photons are split by the host: one workgroup would need too many loop turns (shaders/shared/turns.glsl).
+// Nodes with more photons are split by the host: one workgroup would need too many loop turns
+// (shaders/shared/turns.glsl).
 constexpr std::uint64_t HOST_NODE_PHOTONS = 16384;
 // From nodes of this size on a workgroup finishes a whole subtree, whose photons then stay in the processor's cache.
 constexpr std::uint64_t SUBTREE_PHOTONS = 1024;
@@ -34,10 +35,10 @@ void copy_positions(gpu::Device& device, const PhotonMap& photons, const KdTree&
     gpu::run_in_chunks(device, "build tree", photons.count, 1 << 16, progress,
                        [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
                            const CopyPush push{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count)};
-                           commands.dispatch({"photons/number_photons.comp", 64, {}, {}},
-                                             {{"position_emitter", photons.position_emitter},
-                                              {"tree_positions", tree.positions}},
-                                             push, count);
+                           commands.dispatch(
+                               {"photons/number_photons.comp", 64, {}, {}},
+                               {{"position_emitter", photons.position_emitter}, {"tree_positions", tree.positions}},
+                               push, count);
                        });
 }
 
@@ -53,7 +54,9 @@ void split_levels(gpu::Device& device, const KdTree& tree, std::uint32_t root_le
                        });
 }
 
-float pick(const glm::vec4& position, int axis) { return position[axis]; }
+float pick(const glm::vec4& position, int axis) {
+    return position[axis];
+}
 
 // The box and widest axis of photons, as the kernel finds them.
 shared::TreeNode bound_photons(std::span<const glm::vec4> photons, std::uint32_t& axis) {
@@ -101,7 +104,8 @@ std::uint32_t split_top(KdTree& tree, const Progress& progress) {
         std::thread other(split_from, 1);
         split_from(0);
         other.join();
-        tree.nodes.upload(nodes.data(), nodes.size() * sizeof(shared::TreeNode), nodes.size() * sizeof(shared::TreeNode));
+        tree.nodes.upload(nodes.data(), nodes.size() * sizeof(shared::TreeNode),
+                          nodes.size() * sizeof(shared::TreeNode));
     }
     tree.positions.upload(photons.data(), photons.size() * sizeof(glm::vec4));
     return level;
@@ -165,8 +169,8 @@ TreeArrays read_tree(const KdTree& tree) {
         arrays.split_value.push_back(is_leaf ? 0.0f : node.lo_split.w);
         arrays.first.push_back(static_cast<std::int32_t>(first));
         arrays.count.push_back(static_cast<std::int32_t>(find_position(tree.count, index + 1, level) - first));
-        arrays.box.push_back({node.lo_split.x, node.lo_split.y, node.lo_split.z, node.hi_axis.x, node.hi_axis.y,
-                              node.hi_axis.z});
+        arrays.box.push_back(
+            {node.lo_split.x, node.lo_split.y, node.lo_split.z, node.hi_axis.x, node.hi_axis.y, node.hi_axis.z});
     }
     for (const glm::vec4& position : tree.positions.read<glm::vec4>(tree.count)) {
         std::int32_t id;

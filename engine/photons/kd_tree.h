@@ -24,9 +24,9 @@ KdTree build_tree(gpu::Device& device, const PhotonMap& photons, const Progress&
 
 // The tree as plain arrays, parents before children: what PhotonMap.tree shows.
 struct TreeArrays {
-    std::vector<std::int8_t> split_axis;   // -1: leaf
-    std::vector<float> split_value;        // the right child's first coordinate
-    std::vector<std::int32_t> first;       // first photon of the node, in `order`
+    std::vector<std::int8_t> split_axis; // -1: leaf
+    std::vector<float> split_value;      // the right child's first coordinate
+    std::vector<std::int32_t> first;     // first photon of the node, in `order`
     std::vector<std::int32_t> count;
     std::vector<std::array<float, 6>> box; // lower corner, upper corner, relative to the map's origin
     std::vector<std::int32_t> order;       // photon ids in tree order

@@ -72,7 +72,8 @@ PhotonMap make_map(gpu::Device& device, const MapColumns& columns) {
         position[i].w = std::bit_cast<float>(columns.emitter[i]);
         normal[i].w = std::bit_cast<float>(static_cast<std::uint32_t>(columns.emitted_index[i]));
         const bool has_object = columns.object[i] >= 0;
-        power[i].w = std::bit_cast<float>(has_object ? static_cast<std::uint32_t>(columns.object[i]) : shared::NO_OBJECT);
+        power[i].w =
+            std::bit_cast<float>(has_object ? static_cast<std::uint32_t>(columns.object[i]) : shared::NO_OBJECT);
     }
     map.position_emitter = gpu::make_buffer(device, position, "photon positions");
     map.normal_index = gpu::make_buffer(device, normal, "photon normals");

@@ -33,7 +33,8 @@ std::uint32_t choose_capacity(const gpu::DeviceLimits& limits, std::uint32_t kep
     for (const std::uint32_t capacity : CAPACITIES) {
         const std::uint64_t bytes = std::uint64_t{capacity} * limits.subgroup_size * sizeof(std::uint32_t);
         const std::uint64_t others = 1024; // stack and leaf list
-        if (kept + 2 * limits.subgroup_size <= capacity && kept <= capacity * LARGEST_FILL && bytes + others <= limits.shared_memory_bytes)
+        if (kept + 2 * limits.subgroup_size <= capacity && kept <= capacity * LARGEST_FILL &&
+            bytes + others <= limits.shared_memory_bytes)
             return capacity;
     }
     return 0;
@@ -82,7 +83,7 @@ float guess_radius2(const KdTree& tree, std::uint32_t kept) {
 struct QueryRun {
     gpu::KernelSource kernel;
     std::uint32_t batches = 1;
-    std::uint64_t per_group = 1;  // queries
+    std::uint64_t per_group = 1;     // queries
     std::uint64_t scratch_bytes = 0; // a workgroup
 };
 
@@ -167,7 +168,8 @@ std::vector<std::uint32_t> order_points(std::span<const glm::vec4> points) {
     }
     std::sort(keys.begin(), keys.end());
     std::vector<std::uint32_t> order(points.size());
-    std::transform(keys.begin(), keys.end(), order.begin(), [](std::uint64_t key) { return static_cast<std::uint32_t>(key); });
+    std::transform(keys.begin(), keys.end(), order.begin(),
+                   [](std::uint64_t key) { return static_cast<std::uint32_t>(key); });
     return order;
 }
 

@@ -30,14 +30,14 @@ struct Camera {
     std::array<double, 3> right{1, 0, 0};
     std::array<double, 3> up{0, 1, 0};
     std::array<double, 3> backward{0, 0, 1};
-    double yfov = 0.8;    // radians
-    double aspect = 0.0;  // 0: none given
+    double yfov = 0.8;   // radians
+    double aspect = 0.0; // 0: none given
 };
 
 // What the loader understood, and what it left out.
 struct SceneReport {
     std::vector<std::string> ignored; // features present in the file that nothing models, one sentence each
-    std::vector<std::string> notes;   // what was changed or dropped on the way (degenerate triangles, missing normals …)
+    std::vector<std::string> notes; // what was changed or dropped on the way (degenerate triangles, missing normals …)
     bool has_mirror = false;
     bool has_dielectric = false;
     bool has_thin = false;
@@ -48,9 +48,9 @@ struct SceneReport {
 
 struct Scene {
     std::filesystem::path path;
-    std::string hash; // of the file and every buffer it uses, hex
-    std::array<double, 3> origin{}; // world position of the kernels' (0, 0, 0)
-    Bounds bounds;                  // world
+    std::string hash;                        // of the file and every buffer it uses, hex
+    std::array<double, 3> origin{};          // world position of the kernels' (0, 0, 0)
+    Bounds bounds;                           // world
     std::vector<shared::Triangle> triangles; // in BVH leaf order
     std::vector<shared::TriangleNormals> normals;
     std::vector<shared::BvhNode> nodes; // nodes[0] is the root; empty without triangles

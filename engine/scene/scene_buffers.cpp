@@ -8,7 +8,8 @@ namespace photonloupe {
 
 namespace {
 
-template <class T> void append_texels(std::vector<glm::vec4>& texels, const std::vector<T>& values) {
+template <class T>
+void append_texels(std::vector<glm::vec4>& texels, const std::vector<T>& values) {
     static_assert(sizeof(T) % sizeof(glm::vec4) == 0);
     const std::size_t first = texels.size();
     texels.resize(first + values.size() * sizeof(T) / sizeof(glm::vec4));

@@ -9,7 +9,9 @@
 namespace photonloupe {
 namespace {
 
-double find_largest(const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); }
+double find_largest(const glm::dvec3& v) {
+    return std::max({v.x, v.y, v.z});
+}
 
 void require_contents(const Scene& scene, Store store) {
     const std::string where = scene.path.string() + ": ";

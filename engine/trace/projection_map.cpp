@@ -42,8 +42,8 @@ struct Marker {
             return std::min(rows - 1, static_cast<std::uint32_t>((1.0 - y) * 0.5 * rows));
         };
         const bool holds_pole = polar - radius <= 0 || polar + radius >= std::numbers::pi;
-        const double reach = holds_pole ? std::numbers::pi
-                                        : std::asin(std::min(1.0, std::sin(radius) / std::sin(polar))) + ANGLE_SLACK;
+        const double reach =
+            holds_pole ? std::numbers::pi : std::asin(std::min(1.0, std::sin(radius) / std::sin(polar))) + ANGLE_SLACK;
         const double turn = 2 * std::numbers::pi;
         const double azimuth = std::atan2(center.z, center.x);
         const auto first = static_cast<std::int64_t>(std::floor((azimuth - reach) / turn * columns));
@@ -51,7 +51,8 @@ struct Marker {
         const std::int64_t span = std::min<std::int64_t>(last - first, columns - 1);
         for (std::uint32_t row = row_of(polar - radius); row <= row_of(polar + radius); ++row)
             for (std::int64_t step = 0; step <= span; ++step)
-                marks[std::size_t{row} * columns + static_cast<std::size_t>((first + step + 2 * std::int64_t{columns}) % columns)] = 1;
+                marks[std::size_t{row} * columns +
+                      static_cast<std::size_t>((first + step + 2 * std::int64_t{columns}) % columns)] = 1;
     }
 
     // `a`, `b`, `c` relative to the light.
@@ -67,8 +68,8 @@ struct Marker {
         }
         const dvec3 center = sum / length;
         // Chords, not cosines: those of small angles are all 1.
-        const double chord = std::max({glm::distance(center, a / la), glm::distance(center, b / lb),
-                                       glm::distance(center, c / lc)});
+        const double chord =
+            std::max({glm::distance(center, a / la), glm::distance(center, b / lb), glm::distance(center, c / lc)});
         if (chord < 2.0 / rows || splits == SPLIT_LIMIT)
             return mark_cap(center, 2 * std::asin(std::min(1.0, 0.5 * chord)) + ANGLE_SLACK);
         split_triangle(a, b, c, splits);
@@ -123,7 +124,9 @@ double ProjectionMap::solid_angle() const {
     return 4 * std::numbers::pi * static_cast<double>(cells.size()) / (static_cast<double>(rows) * columns);
 }
 
-ProjectionMap make_full_projection() { return {1, 1, {0}, {{0, 1}}}; }
+ProjectionMap make_full_projection() {
+    return {1, 1, {0}, {{0, 1}}};
+}
 
 ProjectionMap project_specular(const Scene& scene, const shared::Light& light) {
     const dvec3 position(light.position_kind);

@@ -174,7 +174,8 @@ void Tracer::write(std::uint32_t kept, const glm::uvec2& added) {
     for (GrowingBuffer* column : {&m_position, &m_normal, &m_power})
         column->reserve(needed, used);
     if (m_settings.paths) {
-        m_starts.reserve((m_photon_count + added.x + 1) * sizeof(std::uint32_t), m_photon_count * sizeof(std::uint32_t));
+        m_starts.reserve((m_photon_count + added.x + 1) * sizeof(std::uint32_t),
+                         m_photon_count * sizeof(std::uint32_t));
         for (GrowingBuffer* column : {&m_vertices, &m_normals})
             column->reserve((m_vertex_count + added.y) * sizeof(glm::vec4), m_vertex_count * sizeof(glm::vec4));
     }
@@ -298,13 +299,15 @@ void Tracer::scale_power(const Progress& progress) {
         float factor;
     };
     const float factor = static_cast<float>(1.0 / static_cast<double>(m_report.emitted));
-    gpu::run_in_chunks(m_device, "scale power", m_photon_count, 1 << 16, progress,
-                       [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
-                           const Push push{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count), factor};
-                           commands.dispatch({"trace/scale_power.comp", 64, {}, {}},
-                                             {{"power_object", m_power.buffer()}}, push, count);
-                       });
-    for (auto* flux : {&m_report.flux_emitted, &m_report.flux_deposited, &m_report.flux_escaped, &m_report.flux_truncated})
+    gpu::run_in_chunks(
+        m_device, "scale power", m_photon_count, 1 << 16, progress,
+        [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
+            const Push push{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count), factor};
+            commands.dispatch({"trace/scale_power.comp", 64, {}, {}}, {{"power_object", m_power.buffer()}}, push,
+                              count);
+        });
+    for (auto* flux :
+         {&m_report.flux_emitted, &m_report.flux_deposited, &m_report.flux_escaped, &m_report.flux_truncated})
         for (double& channel : *flux)
             channel /= static_cast<double>(m_report.emitted);
 }

@@ -100,13 +100,13 @@ class PhotonMap:
     def power(self) -> object: ...
 
     @property
-    def emitter(self) -> object: ...
+    def emitter(self) -> NDArray[numpy.int32]: ...
 
     @property
-    def emitted_index(self) -> object: ...
+    def emitted_index(self) -> NDArray[numpy.uint64]: ...
 
     @property
-    def object(self) -> object: ...
+    def object(self) -> NDArray[numpy.int32]: ...
 
     @property
     def path_vertices(self) -> object: ...
@@ -139,10 +139,10 @@ def trace_photons(device: Device, scene: Scene, settings: dict, progress: object
     Trace photons; settings: count, emitted, seed, emission, store, max_bounces, paths.
     """
 
-def estimate_irradiance(device: Device, photons: PhotonMap, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', writable=False)], normals: Annotated[NDArray[numpy.float32], dict(shape=(None, 3), order='C', writable=False)], k: int, kernel: str, progress: object | None = None) -> object:
+def estimate_irradiance(device: Device, photons: PhotonMap, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', writable=False)], normals: Annotated[NDArray[numpy.float32], dict(shape=(None, 3), order='C', writable=False)], k: int, kernel: str, progress: object | None = None) -> NDArray[numpy.float32]:
     """Irradiance (n, 3) in W/m² at points with unit normals."""
 
-def render_image(device: Device, scene: Scene, photons: object | None, settings: dict, progress: object | None = None) -> object:
+def render_image(device: Device, scene: Scene, photons: object | None, settings: dict, progress: object | None = None) -> Annotated[NDArray[numpy.float32], dict(shape=(None, None, None))]:
     """
     Linear radiance (height, width, 3); settings: camera, width, height, samples, mode, k, kernel, seed.
     """

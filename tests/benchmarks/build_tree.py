@@ -7,7 +7,6 @@ import time
 from functools import partial
 
 import numpy as np
-import photonloupe as pl
 from measure import (
     Round,
     Row,
@@ -21,6 +20,8 @@ from measure import (
 )
 from peer_nanoflann import Nanoflann
 from scene_data import trace_ring_map
+
+import photonloupe as pl
 
 COUNTS = (100_000, 1_000_000)
 GATE_COUNT, GATE = 1_000_000, 0.8  # s, PEERS

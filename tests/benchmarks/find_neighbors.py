@@ -8,7 +8,6 @@ from time import perf_counter
 from typing import Any
 
 import numpy as np
-import photonloupe as pl
 from measure import (
     PAIRS,
     Round,
@@ -25,6 +24,8 @@ from measure import (
 from numpy.typing import NDArray
 from peer_nanoflann import Nanoflann
 from scene_data import trace_ring_map
+
+import photonloupe as pl
 
 WORK = ((100_000, 50), (100_000, 250), (1_000_000, 50))
 GATE = 0.5  # times nanoflann, PEERS

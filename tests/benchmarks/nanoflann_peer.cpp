@@ -27,7 +27,10 @@ struct Cloud {
     std::vector<float> values; // x, y, z of each photon
     std::size_t kdtree_get_point_count() const { return values.size() / 3; }
     float kdtree_get_pt(std::size_t photon, std::size_t axis) const { return values[3 * photon + axis]; }
-    template <class Box> bool kdtree_get_bbox(Box&) const { return false; }
+    template <class Box>
+    bool kdtree_get_bbox(Box&) const {
+        return false;
+    }
 };
 
 using Metric = nanoflann::L2_Simple_Adaptor<float, Cloud>;

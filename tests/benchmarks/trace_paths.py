@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import photonloupe as pl
 from find_llvm import find_llvm
 from measure import (
     Round,
@@ -17,6 +16,8 @@ from measure import (
     time_in_turn,
 )
 from scene_data import load_scene
+
+import photonloupe as pl
 
 PATHS = 1_000_000
 GATE = 0.25  # times Dr.Jit, PEERS
