@@ -138,10 +138,14 @@ void bind_columns(nb::class_<Photons>& type) {
         .def_prop_ro(
             "power",
             [](nb::handle self) { return view_rgb(self, unwrap(self).map.power_object, unwrap(self).map.count); })
-        .def_prop_ro("emitter", [](const Photons& photons) { return own_array(read_emitters(photons.map)); })
-        .def_prop_ro("emitted_index",
-                     [](const Photons& photons) { return own_array(read_emitted_indices(photons.map)); })
-        .def_prop_ro("object", [](const Photons& photons) { return own_array(read_objects(photons.map)); })
+        .def_prop_ro(
+            "emitter", [](const Photons& photons) { return own_array(read_emitters(photons.map)); },
+            nb::rv_policy::move)
+        .def_prop_ro(
+            "emitted_index", [](const Photons& photons) { return own_array(read_emitted_indices(photons.map)); },
+            nb::rv_policy::move)
+        .def_prop_ro(
+            "object", [](const Photons& photons) { return own_array(read_objects(photons.map)); }, nb::rv_policy::move)
         .def_prop_ro("path_vertices", &view_path_vertices)
         .def_prop_ro("path_offsets", path_column([](nb::handle, const PhotonMap& map) {
                          return own_array(read_path_offsets(*map.paths, map.count));
