@@ -15,8 +15,8 @@ namespace {
 // Diffuse hits one sample may have: behind glass the reflected and the transmitted path are both followed.
 constexpr std::uint32_t DIELECTRIC_SLOTS = 4;
 constexpr std::uint32_t LARGEST_SAMPLE_COUNT = 4096;
-// Slots of one chunk: scratch of 5 columns stays below 100 MiB.
-constexpr std::uint64_t CHUNK_SLOTS = 1ull << 20;
+// Slots of one chunk: a software device follows their rays in a tenth of a second, which Ctrl-C waits for.
+constexpr std::uint64_t CHUNK_SLOTS = 1ull << 17;
 
 struct FilmScratch {
     gpu::Buffer hit_point;
@@ -46,7 +46,7 @@ struct Renderer {
     void trace_eye(const FilmScratch& scratch);
     void light_direct(const FilmScratch& scratch);
     void accumulate(const FilmScratch& scratch, const gpu::Buffer& irradiance);
-    void render_chunk(const FilmScratch& scratch);
+    void render_chunk(const FilmScratch& scratch, const Progress& progress);
     Image run(const Progress& progress);
 };
 
@@ -88,14 +88,14 @@ void Renderer::accumulate(const FilmScratch& scratch, const gpu::Buffer& irradia
     commands.run();
 }
 
-void Renderer::render_chunk(const FilmScratch& scratch) {
+void Renderer::render_chunk(const FilmScratch& scratch, const Progress& progress) {
     trace_eye(scratch);
     if (film_push.uses_direct)
         light_direct(scratch);
     const std::uint64_t slots = std::uint64_t{film_push.sample_count} * film_push.slot_count;
     const gpu::Buffer irradiance =
         film_push.uses_map ? estimate_irradiance(device, map->photons, map->tree, scratch.hit_point, scratch.hit_normal,
-                                                 keep_order(slots), settings.estimate, Progress{})
+                                                 keep_order(slots), settings.estimate, progress)
                            : gpu::Buffer(device, sizeof(glm::vec4), "no irradiance");
     accumulate(scratch, irradiance);
 }
@@ -104,17 +104,23 @@ Image Renderer::run(const Progress& progress) {
     const std::uint64_t pixels = std::uint64_t{settings.width} * settings.height;
     film = gpu::Buffer(device, pixels * sizeof(glm::vec4), "film");
     const std::uint64_t per_chunk =
-        std::max<std::uint64_t>(1, CHUNK_SLOTS / 4 / (std::uint64_t{settings.samples} * film_push.slot_count));
+        std::max<std::uint64_t>(1, CHUNK_SLOTS / (std::uint64_t{settings.samples} * film_push.slot_count));
     const FilmScratch scratch =
         allocate_scratch(device, std::min(per_chunk, pixels) * settings.samples, film_push.slot_count);
     for (std::uint64_t first = 0; first < pixels; first += per_chunk) {
-        progress.report("render", static_cast<double>(first) / static_cast<double>(pixels));
         const std::uint64_t count = std::min(per_chunk, pixels - first);
+        // Whatever stage a chunk is in, what is reported is the image's own progress.
+        const Progress within{[&](std::string_view, double fraction) {
+            progress.report("render", (static_cast<double>(first) + fraction * static_cast<double>(count)) /
+                                          static_cast<double>(pixels));
+            return true;
+        }};
+        within.report("render", 0.0);
         eye.first_sample = static_cast<std::uint32_t>(first * settings.samples);
         eye.sample_count = film_push.sample_count = static_cast<std::uint32_t>(count * settings.samples);
         film_push.first_pixel = static_cast<std::uint32_t>(first);
         film_push.pixel_count = static_cast<std::uint32_t>(count);
-        render_chunk(scratch);
+        render_chunk(scratch, within);
     }
     progress.report("render", 1.0);
     Image image{settings.width, settings.height, {}, {}};
