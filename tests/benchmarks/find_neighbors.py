@@ -32,7 +32,7 @@ GATE = 0.5  # times nanoflann, PEERS
 SINGLE_K, SINGLE_GATE, SINGLE_QUERIES = 250, 1e-3, 200  # s, PEERS
 PEERS = {"nanoflann": "nanoflann", "scipy": "SciPy cKDTree"}
 # Distances of float32 positions a few meters from the origin: SciPy computes in double, we in float32.
-TIE = 2e-6  # m
+TIE = 5e-7  # m
 
 
 @dataclass

@@ -84,3 +84,11 @@ def test_bar_never_asks_to_stop(capsys: pytest.CaptureFixture[str]) -> None:
 def test_true_shows_a_bar(ring: pl.Scene, capsys: pytest.CaptureFixture[str]) -> None:
     pl.trace_photons(ring, 10_000, progress=True)
     assert "left" in capsys.readouterr().err
+
+
+def test_render_reports_between_the_estimates_of_one_chunk(ring: pl.Scene) -> None:
+    photons = pl.trace_photons(ring, 50_000)
+    fractions: list[float] = []
+    pl.render(ring, photons, width=128, height=128, samples=4, k=100, progress=lambda _, done: fractions.append(done))
+    # 65,536 samples fit one chunk of eye paths; Ctrl-C must not wait for all their estimates.
+    assert len({done for done in fractions if 0.0 < done < 1.0}) >= 3
