@@ -9,13 +9,14 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 import numpy as np
-import photonloupe as pl
 from find_llvm import find_llvm
 from measure import PAIRS, Row, Subject
 
+import photonloupe as pl
+
 COMMANDS = """\
     apt-get install libllvm19 libnanoflann-dev
-    ./photonloupe python -m pip install '.[bench]'
+    ./photonloupe python -m pip install mitsuba numba pykdtree scipy    # the extra `bench`
     ./photonloupe python tests/benchmarks/run.py"""
 PACKAGES = ("scipy", "numba", "pykdtree")
 HEAD = "| work | peer | peer's figure | ours | ratio ours/peer | gate | met |\n|---|---|---|---|---|---|---|"

@@ -90,8 +90,8 @@ def measure() -> Subject:
         "Both aim the emission at a grid of cells of equal solid angle that hold the mirror or the glass; "
         "both store the emitter, every hit and the end point with its normal. Ours ends with ragged NumPy columns "
         "of the stored paths alone, objects and interactions among them; Dr.Jit ends with "
-        f"{MAX_BOUNCES + 2} slots a path in memory, not copied to NumPy. Dr.Jit's Sobol points are scrambled by a digital "
-        "shift, ours by Owen's scrambling.",
+        f"{MAX_BOUNCES + 2} slots a path in memory, not copied to NumPy. Dr.Jit's Sobol points are scrambled by a "
+        "digital shift, ours by Owen's scrambling.",
         "The slab is larger than the floor: paths that miss the floor escape and are not stored.",
     ]
     reason = find_llvm()
