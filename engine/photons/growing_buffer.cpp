@@ -9,6 +9,9 @@
 namespace photonloupe {
 namespace {
 
+// An eighth too large is kept: copying a whole column costs more than the memory is worth.
+constexpr std::uint64_t WASTE_DIVISOR = 8;
+
 gpu::Buffer copy_into_new(gpu::Device& device, const gpu::Buffer& old, std::uint64_t size_bytes,
                           std::uint64_t used_bytes, const char* purpose) {
     gpu::Buffer grown(device, size_bytes, purpose);
@@ -31,7 +34,7 @@ void GrowingBuffer::reserve(std::uint64_t size_bytes, std::uint64_t used_bytes) 
 }
 
 gpu::Buffer GrowingBuffer::finish(std::uint64_t size_bytes) {
-    if (m_buffer.size_bytes() != size_bytes)
+    if (m_buffer.is_empty() || m_buffer.size_bytes() - size_bytes > m_buffer.size_bytes() / WASTE_DIVISOR)
         m_buffer = copy_into_new(m_device, m_buffer, size_bytes, size_bytes, m_purpose);
     return std::move(m_buffer);
 }

@@ -22,6 +22,10 @@ constexpr std::uint64_t EMISSION_LIMIT = 1ull << 30;
 // (shaders/shared/turns.glsl), so long paths go alone.
 constexpr std::uint32_t PATHS_PER_LANE = 8;
 constexpr std::uint32_t SHORT_PATH_BOUNCES = 24;
+// Columns are reserved for what the first chunk leads to expect, and a little more; never for more than 2^26 rows
+// ahead.
+constexpr double EXPECTATION_MARGIN = 1.03;
+constexpr std::uint64_t LARGEST_EXPECTATION = 1ull << 26;
 constexpr std::uint64_t PHOTON_BYTES = 3 * sizeof(glm::vec4);
 constexpr std::uint32_t LARGEST_BOUNCE_COUNT = 64;
 
@@ -44,6 +48,8 @@ private:
     void choose_chunk(double milliseconds);
     double shoot();
     std::uint32_t find_kept_paths(const std::vector<glm::uvec2>& offsets) const;
+    std::uint64_t expect_total(std::uint64_t so_far, std::uint32_t kept) const;
+    void reserve(const glm::uvec2& added, std::uint32_t kept);
     void write(std::uint32_t kept, const glm::uvec2& added);
     bool account(std::uint32_t kept);
     bool is_done() const;
@@ -167,20 +173,39 @@ std::uint32_t Tracer::find_kept_paths(const std::vector<glm::uvec2>& offsets) co
     return m_push.count;
 }
 
-void Tracer::write(std::uint32_t kept, const glm::uvec2& added) {
-    const std::uint64_t used = m_photon_count * sizeof(glm::vec4);
-    const std::uint64_t needed = std::max((m_photon_count + added.x) * sizeof(glm::vec4),
-                                          m_settings.emitted > 0 ? 0 : m_settings.count * sizeof(glm::vec4));
+// What a column will need in the end if the rest of the work is like the part done, so that columns seldom grow.
+std::uint64_t Tracer::expect_total(std::uint64_t so_far, std::uint32_t kept) const {
+    const double done = m_settings.emitted > 0
+                            ? static_cast<double>(m_report.emitted + kept) / static_cast<double>(m_settings.emitted)
+                            : static_cast<double>(so_far) / static_cast<double>(m_settings.count);
+    const double expected = static_cast<double>(so_far) / std::clamp(done, 1e-6, 1.0) * EXPECTATION_MARGIN;
+    return std::max(so_far, std::min(static_cast<std::uint64_t>(expected), LARGEST_EXPECTATION));
+}
+
+void Tracer::reserve(const glm::uvec2& added, std::uint32_t kept) {
+    const std::uint64_t photons = m_photon_count + added.x;
+    const std::uint64_t vertices = m_vertex_count + added.y;
+    const std::uint64_t expected =
+        m_settings.emitted > 0 ? expect_total(photons, kept) : std::max(photons, m_settings.count);
     for (GrowingBuffer* column : {&m_position, &m_normal, &m_power})
-        column->reserve(needed, used);
-    if (m_settings.paths) {
-        m_starts.reserve((m_photon_count + added.x + 1) * sizeof(std::uint32_t),
-                         m_photon_count * sizeof(std::uint32_t));
-        for (GrowingBuffer* column : {&m_vertices, &m_normals})
-            column->reserve((m_vertex_count + added.y) * sizeof(glm::vec4), m_vertex_count * sizeof(glm::vec4));
-    }
+        if (column->buffer().size_bytes() < photons * sizeof(glm::vec4) || column->buffer().is_empty())
+            column->reserve(expected * sizeof(glm::vec4), m_photon_count * sizeof(glm::vec4));
+    if (!m_settings.paths)
+        return;
+    if (m_starts.buffer().size_bytes() < (photons + 1) * sizeof(std::uint32_t) || m_starts.buffer().is_empty())
+        m_starts.reserve((expected + 1) * sizeof(std::uint32_t), m_photon_count * sizeof(std::uint32_t));
+    const double per_photon = static_cast<double>(vertices) / static_cast<double>(std::max<std::uint64_t>(photons, 1));
+    const auto more = static_cast<std::uint64_t>(per_photon * static_cast<double>(expected) * EXPECTATION_MARGIN);
+    for (GrowingBuffer* column : {&m_vertices, &m_normals})
+        if (column->buffer().size_bytes() < vertices * sizeof(glm::vec4) || column->buffer().is_empty())
+            column->reserve(std::max(vertices, std::min(more, LARGEST_EXPECTATION)) * sizeof(glm::vec4),
+                            m_vertex_count * sizeof(glm::vec4));
+}
+
+void Tracer::write(std::uint32_t kept, const glm::uvec2& added) {
     if (m_vertex_count + added.y > UINT32_MAX)
         throw MemoryError("path columns: more than 2^32 vertices; trace fewer photons, or without path columns");
+    reserve(added, kept);
     m_push.count = kept;
     m_push.photon_base = static_cast<std::uint32_t>(m_photon_count);
     m_push.vertex_base = static_cast<std::uint32_t>(m_vertex_count);
