@@ -20,6 +20,8 @@ constexpr double DEADLINE_SECONDS = 60.0;
 // Long enough to amortise a submission (80 µs), short enough to stop within 0.2 s of Ctrl-C.
 constexpr double CHUNK_MILLISECONDS = 40.0;
 constexpr double CHUNK_GROWTH_LIMIT = 8.0;
+// Invocations a workgroup has at least where each item of a chunk is one invocation.
+constexpr std::uint64_t SMALLEST_GROUP = 32;
 constexpr std::uint32_t SETS_PER_POOL = 32;
 constexpr std::uint32_t LARGEST_BINDING_COUNT = 32;
 constexpr std::uint32_t PUSH_BYTES = 128;
@@ -291,6 +293,8 @@ double Commands::run() {
 void run_in_chunks(Device& device, const std::string& stage, std::uint64_t total, std::uint64_t granule,
                    const Progress& progress, const std::function<void(Commands&, std::uint64_t, std::uint64_t)>& record,
                    std::uint64_t largest) {
+    if (largest == 0)
+        largest = std::uint64_t{device.limits().max_group_count} * SMALLEST_GROUP;
     std::uint64_t chunk = granule;
     for (std::uint64_t first = 0; first < total;) {
         progress.report(stage, static_cast<double>(first) / static_cast<double>(total));

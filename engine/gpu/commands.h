@@ -53,11 +53,11 @@ private:
 };
 
 // Runs `record(commands, first, count)` over [0, total) in chunks that are multiples of `granule` and aim at
-// CHUNK_MILLISECONDS each and never exceed `largest`, reporting progress between them. How work is cut never changes
-// its result.
+// CHUNK_MILLISECONDS each and never exceed `largest` (0: what one dispatch of an invocation per item allows), reporting
+// progress between them. How work is cut never changes its result.
 void run_in_chunks(Device& device, const std::string& stage, std::uint64_t total, std::uint64_t granule,
                    const Progress& progress,
                    const std::function<void(Commands&, std::uint64_t first, std::uint64_t count)>& record,
-                   std::uint64_t largest = UINT64_MAX);
+                   std::uint64_t largest = 0);
 
 } // namespace photonloupe::gpu

@@ -44,14 +44,16 @@ void copy_positions(gpu::Device& device, const PhotonMap& photons, const KdTree&
 
 void split_levels(gpu::Device& device, const KdTree& tree, std::uint32_t root_level, std::uint32_t last_level,
                   const Progress& progress) {
-    gpu::run_in_chunks(device, "build tree", 1ull << root_level, 1, progress,
-                       [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
-                           const shared::TreeBuild push{static_cast<std::uint32_t>(tree.count), tree.leaf_level,
-                                                        root_level, static_cast<std::uint32_t>(first), last_level};
-                           commands.dispatch({"photons/build_tree.comp", 0, {}, {}},
-                                             {{"tree_positions", tree.positions}, {"tree_nodes", tree.nodes}}, push,
-                                             count * device.limits().subgroup_size);
-                       });
+    gpu::run_in_chunks(
+        device, "build tree", 1ull << root_level, 1, progress,
+        [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
+            const shared::TreeBuild push{static_cast<std::uint32_t>(tree.count), tree.leaf_level, root_level,
+                                         static_cast<std::uint32_t>(first), last_level};
+            commands.dispatch({"photons/build_tree.comp", 0, {}, {}},
+                              {{"tree_positions", tree.positions}, {"tree_nodes", tree.nodes}}, push,
+                              count * device.limits().subgroup_size);
+        },
+        device.limits().max_group_count);
 }
 
 float pick(const glm::vec4& position, int axis) {
