@@ -24,7 +24,7 @@ from scene_data import trace_ring_map
 import photonloupe as pl
 
 COUNTS = (100_000, 1_000_000)
-GATE_COUNT, GATE = 1_000_000, 0.8  # s, PEERS
+GATE_COUNT, GATE = 1_000_000, 0.8  # s, our gate
 WARM_QUERIES = 5
 PEERS = {"scipy": "SciPy cKDTree", "pykdtree": "pykdtree", "nanoflann": "nanoflann"}
 

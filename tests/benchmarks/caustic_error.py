@@ -26,7 +26,7 @@ import photonloupe as pl
 
 # (photons, k, emission); the first is the peer's own setting.
 WORK = ((1_000_000, 50, "random"), (200_000, 20, "sobol"), (200_000, 50, "sobol"), (1_000_000, 50, "sobol"))
-ERROR_GATE, TIME_GATE = 0.052, 3.0  # units of the mean, s: PEERS
+ERROR_GATE, TIME_GATE = 0.052, 3.0  # units of the mean, s: our gate
 CELL_AREA = (2.0 * RING.window_half / WINDOW_CELLS) ** 2  # m²
 
 
@@ -121,7 +121,7 @@ def measure() -> Subject:
     truth = load_truth()
     subject = Subject("Caustic on a plane, 512² cells, error against time")
     subject.notes += [
-        "Ring R of PEERS, red channel. Ours: trace, tree, irradiance at the middle of each cell, average; a new seed "
+        "The scene ring, red channel. Ours: trace, tree, irradiance at the middle of each cell, average; a new seed "
         "each round, wall time of all. Error: RMSE over the cells in units of the window's mean irradiance. A cell "
         "with more than k photons is counted instead of estimated, on both sides (its support is smaller than the "
         "cell); in brackets the error without that.",
@@ -131,7 +131,7 @@ def measure() -> Subject:
         "for the peer, ours as named.",
         f"Of {ERROR_GATE} in units of the mean: a bare Epanechnikov estimate of k = 50 random photons has a noise of "
         "about 1/√48 = 0.144 of the local value or more (METHODS §8.8), so its RMSE in units of the mean lies above "
-        "that; the figure of PEERS is therefore taken to be in another unit, which PEERS does not name. The last row "
+        "that; the gate is therefore taken to be in another unit, which it does not name. The last row "
         "puts the peer's own error in this run in its place: our reading, not the gate as written. It picks the "
         "fastest of our settings, which ran after the peer and not in turn with it, hence no ratio.",
     ]

@@ -64,7 +64,7 @@ def measure() -> Subject:
     subject = Subject("Irradiance at points")
     subject.notes.append(
         "Middles of the 512² cells of the ring's window, random emission, Epanechnikov, trees built beforehand. Ours "
-        "also applies the test for the same surface; the peer takes every photon. PEERS sets no gate. Results must "
+        "also applies the test for the same surface; the peer takes every photon. No gate is set. Results must "
         f"agree within {AGREEMENT} of the mean (RMS)."
     )
     if not is_installed("scipy"):

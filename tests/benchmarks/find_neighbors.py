@@ -28,8 +28,8 @@ from scene_data import trace_ring_map
 import photonloupe as pl
 
 WORK = ((100_000, 50), (100_000, 250), (1_000_000, 50))
-GATE = 0.5  # times nanoflann, PEERS
-SINGLE_K, SINGLE_GATE, SINGLE_QUERIES = 250, 1e-3, 200  # s, PEERS
+GATE = 0.5  # times nanoflann, our gate
+SINGLE_K, SINGLE_GATE, SINGLE_QUERIES = 250, 1e-3, 200  # s, our gate
 PEERS = {"nanoflann": "nanoflann", "scipy": "SciPy cKDTree"}
 # Distances of float32 positions a few meters from the origin: SciPy computes in double, we in float32.
 TIE = 5e-7  # m

@@ -11,7 +11,7 @@ from measure import Row, Subject, compare_speed, find_median, format_seconds, pr
 
 ROOT = Path(__file__).resolve().parents[2]
 PAIRS = 7
-IMPORT_GATE = 0.5  # s, API.md
+IMPORT_GATE = 0.5  # s, our gate
 
 
 def run(*command: str) -> None:

@@ -20,7 +20,7 @@ from scene_data import load_scene
 import photonloupe as pl
 
 PATHS = 1_000_000
-GATE = 0.25  # times Dr.Jit, PEERS
+GATE = 0.25  # times Dr.Jit, our gate
 MAX_BOUNCES = 16
 SCENES = {"ring": "mirror ring, 24,002 triangles", "slab": "glass slab, 14 triangles"}
 

@@ -17,7 +17,7 @@ from statistics_checks import MIN_EXPECTED, compute_chi_square_p
 EMITTED = 1 << 20
 CELLS = 64
 P_LIMITS = (0.001, 0.999)
-# PEERS: block noise of random emission is white, that of Sobol emission at most half as strong.
+# Block noise of random emission is white, that of Sobol emission at most half as strong.
 WHITE_TOLERANCE = 0.05
 SOBOL_LIMIT = 0.5
 
