@@ -3,6 +3,7 @@
 #include "photons/find_neighbors.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <numeric>
 
@@ -62,6 +63,29 @@ std::vector<std::uint32_t> order_by_tree(const KdTree& tree, std::span<const std
     return order;
 }
 
+// A query for each id: its position, and in w the id, which is left out.
+std::vector<glm::vec4> read_positions_of(const PhotonMap& photons, std::span<const std::uint32_t> ids) {
+    const std::vector<glm::vec4> positions = photons.position_emitter.read<glm::vec4>(photons.count);
+    std::vector<glm::vec4> queries;
+    for (const std::uint32_t id : ids)
+        queries.emplace_back(glm::vec3(positions[id]), std::bit_cast<float>(id));
+    return queries;
+}
+
+// The same, one photon at a time, where memory is shared.
+std::vector<glm::vec4> take_positions(const PhotonMap& photons, std::span<const std::uint32_t> ids) {
+    std::vector<glm::vec4> queries;
+    for (const std::uint32_t id : ids) {
+        glm::vec4 position;
+        photons.position_emitter.download(&position, sizeof position, std::uint64_t{id} * sizeof position);
+        queries.emplace_back(glm::vec3(position), std::bit_cast<float>(id));
+    }
+    return queries;
+}
+
+// Below this share of the map, queries are few.
+constexpr std::uint64_t FEW_DIVISOR = 16;
+
 } // namespace
 
 Neighbors find_neighbors(gpu::Device& device, const KdTree& tree, std::span<const glm::vec4> queries, std::uint32_t k,
@@ -82,14 +106,11 @@ Neighbors find_neighbors_of(gpu::Device& device, const PhotonMap& photons, const
                         " is out of range; the map has " + std::to_string(photons.count) + " photons");
     if (ids.empty())
         return make_missing(device, 0, k);
-    std::vector<glm::vec4> queries(ids.size());
-    const std::vector<glm::vec4> positions = photons.position_emitter.read<glm::vec4>(photons.count);
-    for (std::size_t row = 0; row < ids.size(); ++row) {
-        queries[row] = positions[ids[row]];
-        std::memcpy(&queries[row].w, &ids[row], sizeof ids[row]);
-    }
-    return answer(device, tree, gpu::make_buffer(device, queries, "queries"), order_by_tree(tree, ids), k, true,
-                  progress);
+    // A few photons of a large map, as under a loupe: neither all positions nor the whole tree order is looked at.
+    const bool are_few = photons.position_emitter.mapped() && ids.size() * FEW_DIVISOR < photons.count;
+    const std::vector<glm::vec4> queries = are_few ? take_positions(photons, ids) : read_positions_of(photons, ids);
+    return answer(device, tree, gpu::make_buffer(device, queries, "queries"),
+                  are_few ? order_points(queries) : order_by_tree(tree, ids), k, true, progress);
 }
 
 } // namespace photonloupe
