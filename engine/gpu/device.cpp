@@ -18,6 +18,8 @@ namespace {
 
 // The largest share of what is free that one program may take: the rest is for the system and the driver's own needs.
 constexpr double USABLE_MEMORY_SHARE = 0.9;
+// A step down the kd-tree gives each of eight descendants a lane (TREE_FANOUT); fewer lanes would miss some silently.
+constexpr std::uint32_t SMALLEST_SUBGROUP = 8;
 // Warps of 64 (AMD) are the widest subgroups in use; a kernel's workgroup is one subgroup or a multiple of it.
 constexpr std::uint32_t LARGEST_SUBGROUP = 128;
 constexpr std::uint64_t TEXEL_BYTES = 16; // RGBA32F
@@ -74,6 +76,8 @@ std::string find_missing_requirement(VkPhysicalDevice device, const Properties& 
                                           VK_SUBGROUP_FEATURE_ARITHMETIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT;
     if ((properties.v11.subgroupSupportedOperations & needed) != needed)
         return "lacks subgroup vote, arithmetic or ballot";
+    if (properties.v11.subgroupSize < SMALLEST_SUBGROUP)
+        return "has subgroups narrower than 8";
     if (!properties.v12.shaderSignedZeroInfNanPreserveFloat32)
         return "cannot keep NaN, inf and signed zero in 32-bit floats";
     return {};
