@@ -22,8 +22,13 @@ constexpr std::uint64_t HOST_NODE_PHOTONS = 16384;
 // From nodes of this size on a workgroup finishes a whole subtree, whose photons then stay in the processor's cache.
 constexpr std::uint64_t SUBTREE_PHOTONS = 1024;
 
+std::uint64_t count_tiles(std::uint64_t photon_count) {
+    return (photon_count + shared::TREE_TILE - 1) / shared::TREE_TILE;
+}
+
+// As find_first_position() in shaders/photons/tree_layout.glsl.
 std::uint32_t find_position(std::uint64_t count, std::uint64_t node, std::uint32_t level) {
-    return static_cast<std::uint32_t>(count * node >> level);
+    return static_cast<std::uint32_t>(std::min(shared::TREE_TILE * (count_tiles(count) * node >> level), count));
 }
 
 struct CopyPush {
@@ -129,7 +134,7 @@ void copy_normals(gpu::Device& device, const PhotonMap& photons, const KdTree& t
 
 std::uint32_t find_leaf_level(std::uint64_t photon_count) {
     std::uint32_t level = 0;
-    while ((photon_count + (1ull << level) - 1) >> level > shared::TREE_LEAF_PHOTONS)
+    while (shared::TREE_TILE * ((count_tiles(photon_count) + (1ull << level) - 1) >> level) > shared::TREE_LEAF_PHOTONS)
         ++level;
     return level;
 }

@@ -8,30 +8,16 @@
 // distance; INFINITY: not wanted) and measure_limit. Defines: CAPACITY (a power of two above k by a subgroup's width),
 // SORT_BLOCK (keys sorted at once), SORT_NETWORK (its comparators EXCHANGE(i, j)), LOAD_KEYS, STORE_KEYS.
 // Inputs: tree_nodes (2 texels a node), tree_positions (xyz, w photon id). Scratch: candidates, ranked.
-#include "photons/tree_layout.glsl"
-#include "shared/turns.glsl"
-#pragma binding texel tree_nodes
-#pragma binding texel tree_positions
 #pragma binding coherent uint candidates
 #pragma binding coherent uint ranked
 
-#define WIDTH gl_WorkGroupSize.x
-#define LANE gl_LocalInvocationID.x
-
-// Leaves waiting to be streamed; one step of the walk adds up to TREE_FANOUT. Enough for a typical query's photons;
-// more would be streamed before the first cut could tell that they are too far.
-const uint LEAF_LIST_SIZE = 24u;
+// Enough for a typical query's photons; more would be streamed before the first cut could tell that they are too far.
+#define LEAF_LIST_SIZE 24u
+#include "photons/walk_tree.glsl"
 // A search that kept fewer than k tries a radius with this much more area than its count asks for.
 const float GUESS_SLACK = 1.4;
 
-shared uint stack_node[TREE_STACK_SIZE];
-shared uint leaf_list[LEAF_LIST_SIZE];
 shared uint keys[CAPACITY * gl_WorkGroupSize.x];
-
-void synchronize() {
-    subgroupMemoryBarrierShared();
-    subgroupBarrier();
-}
 
 // One lane's search.
 struct Search {
@@ -52,8 +38,10 @@ float measure_box(vec3 point, vec3 lo, vec3 hi) {
 
 uint locate_candidate(uint index) { return (gl_WorkGroupID.x * CAPACITY + index) * WIDTH + LANE; }
 
-// Squared distance from this lane's box to the nearest query that reaches it; INFINITY when none does.
-float measure_reach(vec3 lo, vec3 hi) {
+// Squared distance from a node's box to the nearest query that reaches it; INFINITY when none does.
+float measure_node(uint node) {
+    vec3 lo = tree_nodes_at(2u * node).xyz;
+    vec3 hi = tree_nodes_at(2u * node + 1u).xyz;
     float nearest = INFINITY;
     for (uint base = 0u; base < WIDTH; base += 8u) {
 #define REACH(j) { float distance = measure_box(vec3(subgroupBroadcast(my_query.point.x, base + j), \
@@ -62,39 +50,6 @@ float measure_reach(vec3 lo, vec3 hi) {
         REACH(0u) REACH(1u) REACH(2u) REACH(3u) REACH(4u) REACH(5u) REACH(6u) REACH(7u)
     }
     return nearest;
-}
-
-// Tests up to eight descendants of a node, one a lane; those reached go to the stack, nearest on top, or, when leaves,
-// to their list, nearest first.
-void step_down(uint node, uint leaf_level, inout uint depth, inout uint leaf_count) {
-    uint level = find_level(node);
-    uint step = min(TREE_STEP_LEVELS, leaf_level - level);
-    uint child = (node << step) + min(LANE, (1u << step) - 1u);
-    float distance = measure_reach(tree_nodes_at(2u * child).xyz, tree_nodes_at(2u * child + 1u).xyz);
-    bool mine = distance < INFINITY && LANE < (1u << step);
-    distance = mine ? distance : INFINITY;
-    uint nearer = 0u;
-#define RANK(j) { float other = subgroupBroadcast(distance, j); \
-    nearer += uint(other < distance || (other == distance && j < LANE)); }
-    RANK(0u) RANK(1u) RANK(2u) RANK(3u) RANK(4u) RANK(5u) RANK(6u) RANK(7u)
-    uint added = subgroupBallotBitCount(subgroupBallot(mine));
-    bool is_leaf = level + step == leaf_level;
-    if (mine && is_leaf) leaf_list[leaf_count + nearer] = child;
-    if (mine && !is_leaf) stack_node[depth + added - 1u - nearer] = child;
-    leaf_count += is_leaf ? added : 0u;
-    depth += is_leaf ? 0u : added;
-    synchronize();
-}
-
-// Walks down until the stack is empty or the leaf list could overflow.
-void walk_tree(uint leaf_level, inout uint depth, inout uint leaf_count) {
-    while (depth > 0u && leaf_count + TREE_FANOUT <= LEAF_LIST_SIZE) {
-        --depth;
-        turns += 2u + WIDTH / 8u;
-        uint node = stack_node[depth];
-        synchronize();
-        step_down(node, leaf_level, depth, leaf_count);
-    }
 }
 
 // The part of the leaf list that has not been streamed.
@@ -231,12 +186,7 @@ void search_tree(uint photon_count, uint leaf_level, uint k) {
     uint depth = leaf_level == 0u ? 0u : 1u;
     uint leaf_count = leaf_level == 0u ? 1u : 0u;
     Stream stream = Stream(0u, 0u, 0u);
-    synchronize();
-    if (LANE == 0u) {
-        stack_node[0] = 1u;
-        leaf_list[0] = 1u;
-    }
-    synchronize();
+    start_walk();
     do {
         if (stream.leaf >= leaf_count) { // all streamed: the list starts over
             stream.leaf = 0u;

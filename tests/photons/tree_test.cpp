@@ -45,8 +45,8 @@ public:
 
 private:
     void add_node(std::uint32_t level, std::uint64_t node, bool is_leaf) {
-        const auto first = std::ptrdiff_t(m_points.size() * node >> level);
-        const auto end = std::ptrdiff_t(m_points.size() * (node + 1) >> level);
+        const auto first = find_first(node, level);
+        const auto end = find_first(node + 1, level);
         glm::vec3 lo(INFINITY), hi(-INFINITY);
         for (std::ptrdiff_t i = first; i < end; ++i)
             for (int axis = 0; axis < 3; ++axis) {
@@ -58,7 +58,7 @@ private:
         float value = 0;
         if (!is_leaf) {
             const auto begin = m_tree.order.begin();
-            const auto split = begin + std::ptrdiff_t(m_points.size() * (2 * node + 1) >> (level + 1));
+            const auto split = begin + find_first(2 * node + 1, level + 1);
             std::nth_element(begin + first, split, begin + end, [&](std::int32_t a, std::int32_t b) {
                 return pick(a, axis) != pick(b, axis) ? pick(a, axis) < pick(b, axis) : a < b;
             });
@@ -69,6 +69,12 @@ private:
         m_tree.first.push_back(std::int32_t(first));
         m_tree.count.push_back(std::int32_t(end - first));
         m_tree.box.push_back({lo.x, lo.y, lo.z, hi.x, hi.y, hi.z});
+    }
+
+    // Whole tiles of eight are shared out.
+    std::ptrdiff_t find_first(std::uint64_t node, std::uint32_t level) const {
+        const std::uint64_t tiles = (m_points.size() + 7) / 8;
+        return std::ptrdiff_t(std::min<std::uint64_t>(8 * (tiles * node >> level), m_points.size()));
     }
 
     float pick(std::int32_t photon, int axis) const { return m_points[std::size_t(photon)][axis]; }
