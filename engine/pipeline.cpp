@@ -17,11 +17,11 @@ std::string make_key(const Scene& scene, const TraceSettings& settings) {
 
 } // namespace
 
-const SceneBuffers& Workbench::find_buffers(const Scene& scene) {
+std::shared_ptr<const SceneBuffers> Workbench::find_buffers(const Scene& scene) {
     if (m_scene_hash != scene.hash) {
         m_scene_hash.clear(); // an upload that fails leaves nothing half-remembered
-        m_scene_buffers = {};
-        m_scene_buffers = upload_scene(m_device, scene);
+        m_scene_buffers.reset();
+        m_scene_buffers = std::make_shared<SceneBuffers>(upload_scene(m_device, scene));
         m_scene_hash = scene.hash;
     }
     return m_scene_buffers;
@@ -33,9 +33,9 @@ std::shared_ptr<Photons> Workbench::trace_photons(const Scene& scene, const Trac
     if (key == m_traced_key)
         if (std::shared_ptr<Photons> traced = m_traced.lock())
             return traced;
-    TracedPhotons traced = photonloupe::trace_photons(m_device, scene, find_buffers(scene), settings, progress);
+    TracedPhotons traced = photonloupe::trace_photons(m_device, scene, *find_buffers(scene), settings, progress);
     auto photons =
-        std::make_shared<Photons>(Photons{std::move(traced.map), traced.report, settings.store, std::nullopt});
+        std::make_shared<Photons>(Photons{std::move(traced.map), traced.report, settings.store, std::nullopt, std::nullopt});
     m_traced = photons;
     m_traced_key = key;
     return photons;
@@ -59,6 +59,25 @@ Neighbors Workbench::find_neighbors_of(Photons& photons, std::span<const std::ui
     return photonloupe::find_neighbors_of(m_device, photons.map, find_tree(photons, progress), ids, k, progress);
 }
 
+const ParameterTree& Workbench::find_parameter_tree(Photons& photons, const Progress& progress) {
+    if (!photons.parameter_tree)
+        photons.parameter_tree = build_parameter_tree(m_device, photons.map, progress);
+    return *photons.parameter_tree;
+}
+
+Relaxation Workbench::start_relaxation(Photons& photons, const Scene* scene, const RelaxSettings& settings,
+                                       const Progress& progress) {
+    const KdTree& tree = find_tree(photons, progress);
+    const bool constrains = settings.constraint.descriptor != Descriptor::none;
+    const bool needs_parameters = settings.repel == Space::parameter ||
+                                  (constrains && settings.constraint.space == Space::parameter);
+    const ParameterTree* parameters = needs_parameters ? &find_parameter_tree(photons, progress) : nullptr;
+    RelaxSurface surface;
+    if (scene)
+        surface = {find_buffers(*scene), scene->origin};
+    return Relaxation(m_device, photons.map, tree, parameters, settings, std::move(surface), progress);
+}
+
 gpu::Buffer Workbench::estimate_irradiance(Photons& photons, std::span<const glm::vec4> points,
                                            std::span<const glm::vec4> normals, const EstimateSettings& settings,
                                            const Progress& progress) {
@@ -72,9 +91,9 @@ gpu::Buffer Workbench::estimate_irradiance(Photons& photons, std::span<const glm
 Image Workbench::render(const Scene& scene, Photons* photons, const RenderSettings& settings,
                         const Progress& progress) {
     if (!photons)
-        return render_image(m_device, scene, find_buffers(scene), nullptr, settings, progress);
+        return render_image(m_device, scene, *find_buffers(scene), nullptr, settings, progress);
     const RenderedMap map{photons->map, find_tree(*photons, progress), photons->store};
-    return render_image(m_device, scene, find_buffers(scene), &map, settings, progress);
+    return render_image(m_device, scene, *find_buffers(scene), &map, settings, progress);
 }
 
 } // namespace photonloupe

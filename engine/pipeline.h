@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program on one page: the stages in the order they run. Everything else delegates to a stage's folder.
 //
-//   load_scene → trace_photons → (run_script → relax_photons →) estimate_irradiance / render → save
+//   load_scene → trace_photons → (run_script →) relax_photons → estimate_irradiance / render → save
 #pragma once
 
 #include <memory>
@@ -10,6 +10,7 @@
 
 #include "estimate/render_image.h"
 #include "photons/find_neighbors.h"
+#include "relax/relaxation.h"
 #include "trace/trace_photons.h"
 
 namespace photonloupe {
@@ -20,6 +21,7 @@ struct Photons {
     TraceReport report;
     Store store = Store::caustic;
     std::optional<KdTree> tree;
+    std::optional<ParameterTree> parameter_tree;
 };
 
 // Runs the stages on one device and remembers their inputs: a stage whose inputs did not change does not run again.
@@ -37,6 +39,12 @@ public:
     Neighbors find_neighbors_of(Photons& photons, std::span<const std::uint32_t> ids, std::uint32_t k,
                                 const Progress& progress);
 
+    const ParameterTree& find_parameter_tree(Photons& photons, const Progress& progress = {});
+
+    // Measures the constraint and stands ready for the first step; `scene` may be null. The photons must outlive it.
+    Relaxation start_relaxation(Photons& photons, const Scene* scene, const RelaxSettings& settings,
+                                const Progress& progress);
+
     gpu::Buffer estimate_irradiance(Photons& photons, std::span<const glm::vec4> points,
                                     std::span<const glm::vec4> normals, const EstimateSettings& settings,
                                     const Progress& progress);
@@ -47,11 +55,11 @@ public:
     gpu::Device& device() { return m_device; }
 
 private:
-    const SceneBuffers& find_buffers(const Scene& scene);
+    std::shared_ptr<const SceneBuffers> find_buffers(const Scene& scene);
 
     gpu::Device& m_device;
     std::string m_scene_hash; // of m_scene_buffers
-    SceneBuffers m_scene_buffers;
+    std::shared_ptr<const SceneBuffers> m_scene_buffers; // a relaxation keeps them as long as it lives
     std::string m_traced_key; // scene and settings of m_traced
     std::weak_ptr<Photons> m_traced;
 };

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "photons/kd_tree.h"
+#include "photons/same_surface.h"
 
 namespace photonloupe {
 
@@ -14,9 +15,6 @@ enum class DensityKernel : std::uint32_t {
     cone = shared::KERNEL_CONE,
     gaussian = shared::KERNEL_GAUSSIAN,
 };
-
-// Largest height above the tangent plane as a share of r (METHODS §2).
-inline constexpr float SURFACE_FLATNESS = 0.1f;
 
 struct EstimateSettings {
     std::uint32_t k = 50;

@@ -124,6 +124,7 @@ void copy_normals(gpu::Device& device, const PhotonMap& photons, const KdTree& t
                            const CopyPush push{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count)};
                            commands.dispatch({"photons/gather_normals.comp", 64, {}, {}},
                                              {{"normal_index", photons.normal_index},
+                                              {"position_emitter", photons.position_emitter},
                                               {"tree_positions", tree.positions},
                                               {"tree_normals", tree.normals}},
                                              push, count);
@@ -156,6 +157,43 @@ KdTree build_tree(gpu::Device& device, const PhotonMap& photons, const Progress&
     split_levels(device, tree, level, tree.leaf_level, progress);
     copy_normals(device, photons, tree, progress);
     return tree;
+}
+
+KdTree copy_tree(gpu::Device& device, const KdTree& tree) {
+    KdTree copy;
+    copy.count = tree.count;
+    copy.leaf_level = tree.leaf_level;
+    copy.nodes = gpu::Buffer(device, tree.nodes.size_bytes(), "kd-tree nodes");
+    copy.positions = gpu::Buffer(device, tree.positions.size_bytes(), "kd-tree positions");
+    copy.normals = gpu::Buffer(device, tree.normals.size_bytes(), "kd-tree normals");
+    gpu::Commands commands(device, "copy tree");
+    commands.copy(tree.nodes, 0, copy.nodes, 0, tree.nodes.size_bytes());
+    commands.copy(tree.positions, 0, copy.positions, 0, tree.positions.size_bytes());
+    commands.copy(tree.normals, 0, copy.normals, 0, tree.normals.size_bytes());
+    commands.run();
+    return copy;
+}
+
+void refit_tree(gpu::Device& device, const KdTree& tree, const std::string& stage) {
+    if (tree.count == 0)
+        return;
+    gpu::Commands commands(device, stage);
+    const auto photon_count = static_cast<std::uint32_t>(tree.count);
+    const std::uint64_t largest = std::uint64_t{device.limits().max_group_count} * 64;
+    const auto refit_level = [&](std::uint32_t level, const char* kernel) {
+        const std::uint64_t nodes = 1ull << level;
+        for (std::uint64_t first = 0; first < nodes; first += largest) {
+            const std::uint64_t count = std::min(largest, nodes - first);
+            const shared::TreeRefit push{photon_count, level, static_cast<std::uint32_t>(first),
+                                         static_cast<std::uint32_t>(count)};
+            commands.dispatch({kernel, 64, {}, {}},
+                              {{"tree_positions", tree.positions}, {"tree_nodes", tree.nodes}}, push, count);
+        }
+    };
+    refit_level(tree.leaf_level, "photons/refit_leaves.comp");
+    for (std::uint32_t level = tree.leaf_level; level > 0; --level)
+        refit_level(level - 1, "photons/refit_nodes.comp");
+    commands.run();
 }
 
 TreeArrays read_tree(const KdTree& tree) {

@@ -14,13 +14,19 @@ struct KdTree {
     std::uint32_t leaf_level = 0; // the root is level 0
     gpu::Buffer nodes;            // shared::TreeNode by heap index; entry 0 is unused
     gpu::Buffer positions;        // tree order: xyz, w bits: photon id
-    gpu::Buffer normals;          // tree order: xyz unit, w unused
+    gpu::Buffer normals;          // tree order: xyz unit, w bits: emitter
 };
 
 // Levels below the root, so that no leaf has more than TREE_LEAF_PHOTONS.
 std::uint32_t find_leaf_level(std::uint64_t photon_count);
 
 KdTree build_tree(gpu::Device& device, const PhotonMap& photons, const Progress& progress = {});
+
+// A tree of its own, whose photons may then move.
+KdTree copy_tree(gpu::Device& device, const KdTree& tree);
+
+// Makes all boxes tight again after `positions` changed; order and splits stay.
+void refit_tree(gpu::Device& device, const KdTree& tree, const std::string& stage);
 
 // The tree as plain arrays, parents before children: what PhotonMap.tree shows.
 struct TreeArrays {

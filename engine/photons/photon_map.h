@@ -2,10 +2,12 @@
 // The photon map as a value: columns on the device, photon ids are their indices.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "gpu/buffer.h"
 
@@ -19,6 +21,17 @@ struct PathColumns {
     gpu::Buffer normals;  // xyz unit, facing the arriving light; w scatter (0 mirror-like … 1 diffuse)
 };
 
+// The photons' parameters (METHODS §4), as a script or a user set them.
+struct ParameterColumns {
+    std::uint32_t count = 0;    // 1–13
+    gpu::Buffer values;         // count_rows() vec4s a photon, by id; NaN: the photon has none
+    std::vector<float> periods; // per parameter; 0: it does not wrap
+    std::uint32_t count_rows() const { return (count + 3) / 4; }
+    bool is_periodic() const {
+        return std::any_of(periods.begin(), periods.end(), [](float period) { return period > 0; });
+    }
+};
+
 struct PhotonMap {
     std::uint64_t count = 0;
     std::array<double, 3> origin{};   // world position of the columns' (0, 0, 0)
@@ -26,6 +39,7 @@ struct PhotonMap {
     gpu::Buffer normal_index;         // xyz unit, facing the arriving light; w bits: emitted index
     gpu::Buffer power_object;         // rgb flux in W, w bits: object
     std::optional<PathColumns> paths; // only when asked for
+    std::optional<ParameterColumns> parameters;
 };
 
 } // namespace photonloupe

@@ -16,6 +16,7 @@ from photonloupe.columns import PHOTON_COLUMNS, Columns, check_columns
 from photonloupe.device import Device, open_device
 from photonloupe.errors import ArgumentError, PhotonLoupeError
 from photonloupe.paths import find_traced_rows, gather_paths, match_signature, read_path_columns, trace_paths
+from photonloupe.photon_columns import Float3, PhotonColumns
 from photonloupe.progress import ProgressLike
 from photonloupe.scene import Scene, load_scene
 
@@ -23,13 +24,11 @@ if TYPE_CHECKING:
     import pandas
     import pyarrow
 
-Float3 = NDArray[np.float32]
-
 # Emitted indices are counted in 64 bits, signed at the interfaces.
 MAX_EMITTED = 2**63 - 1
 
 
-class PhotonMap:
+class PhotonMap(PhotonColumns):
     """Photons and what is known of them, as columns.
 
     Made by `trace_photons`, `load_photons` or `from_arrays`; never changed afterwards. Row i of every column
@@ -132,71 +131,6 @@ class PhotonMap:
         emitted = least if emitted is None else check_count("emitted", emitted, least, MAX_EMITTED)
         provenance = {"version": _engine.version, "source": "arrays"}
         return cls(columns, emitted=emitted, provenance=provenance, device=device)
-
-    @property
-    def positions(self) -> Float3:
-        """Where the photons are stored, (n, 3), m."""
-        return self._columns["positions"]
-
-    @property
-    def normals(self) -> Float3:
-        """Unit normal of the surface, on the side the light came from, (n, 3)."""
-        return self._columns["normals"]
-
-    @property
-    def power(self) -> Float3:
-        """Flux carried, (n, 3), W per channel."""
-        return self._columns["power"]
-
-    @property
-    def emitter(self) -> NDArray[np.int32]:
-        """Index of the light, (n,)."""
-        return self._columns["emitter"]
-
-    @property
-    def emitted_index(self) -> NDArray[np.uint64]:
-        """Which emitted photon it is, (n,): with the seed it determines the whole path."""
-        return self._columns["emitted_index"]
-
-    @property
-    def object(self) -> NDArray[np.int32]:
-        """Object it lies on, (n,); -1 where there is none."""
-        return self._columns["object"]
-
-    @property
-    def path_offsets(self) -> NDArray[np.int64]:
-        """First vertex of each path in the flat path columns, (n + 1,)."""
-        return self._read_path_column("path_offsets")
-
-    @property
-    def path_vertices(self) -> Float3:
-        """Vertices of all paths, emitter and storage point included, (v, 3), m."""
-        return self._read_path_column("path_vertices")
-
-    @property
-    def path_normals(self) -> Float3:
-        """Unit normals at the vertices, (v, 3)."""
-        return self._read_path_column("path_normals")
-
-    @property
-    def path_interactions(self) -> NDArray[np.uint8]:
-        """What happened at the vertices, (v,): 1 reflected, 2 transmitted, 0 at the ends."""
-        return self._read_path_column("path_interactions")
-
-    @property
-    def path_objects(self) -> NDArray[np.int32]:
-        """Objects the vertices lie on, (v,); -1 at a light."""
-        return self._read_path_column("path_objects")
-
-    @property
-    def path_scatter(self) -> NDArray[np.float32]:
-        """How diffuse each interaction was, (v,): 0 mirror-like to 1 diffuse."""
-        return self._read_path_column("path_scatter")
-
-    @property
-    def recorded(self) -> tuple[str, ...]:
-        """Names of the columns that are there without tracing again."""
-        return tuple(self._columns)
 
     @property
     def emitted(self) -> int:
@@ -368,12 +302,6 @@ class PhotonMap:
         place = f" in {self._scene.path.name}" if self._scene else ""
         return f"<PhotonMap{place}: {len(self):,} photons of {self.emitted:,} emitted, flux ({flux}) W>"
 
-    def _add_columns(self, columns: Columns) -> None:
-        for name, array in columns.items():
-            view = array.view()
-            view.setflags(write=False)
-            self._columns[name] = view
-
     def _describe(self) -> dict[str, Any]:
         return {
             "emitted": self._emitted,
@@ -424,13 +352,6 @@ class PhotonMap:
         traced = trace_paths(open_device(self._device), self._find_scene(), self._settings, self._emitted)
         rows = find_traced_rows(self._columns, traced)
         self._add_columns(gather_paths(read_path_columns(traced), rows))
-
-    def _read_path_column(self, name: str) -> NDArray[Any]:
-        if name not in self._columns:
-            self._record_paths()
-        if name not in self._columns:
-            raise PhotonLoupeError(f"this map has no {name}; it holds {', '.join(self.recorded)}")
-        return self._columns[name]
 
 
 def load_photons(path: str | os.PathLike[str], *, device: Device | int | str | None = None) -> PhotonMap:

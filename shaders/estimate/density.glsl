@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernels of density estimation (METHODS §2) and the constants of "the same surface". Define KERNEL.
+// The kernels of density estimation (METHODS §2). Define KERNEL.
 #include "shared/math.glsl"
 
-// Photons whose normal differs more belong to another surface (METHODS §2).
-const float SAME_SURFACE_COSINE = 0.7;
 // r for a set that takes every photon: a little beyond the farthest, so that its weight is not lost to rounding.
 const float BEYOND_FARTHEST = 1.000001;
 const float FLOAT_EPSILON = 1.1920929e-7;

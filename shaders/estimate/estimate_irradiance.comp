@@ -6,6 +6,7 @@
 // Define KERNEL.
 #include "shared/prelude.glsl"
 #include "estimate/density.glsl"
+#include "photons/same_surface.glsl"
 
 struct Query {
     vec3 point;
@@ -49,14 +50,11 @@ Candidate share_candidate(Candidate mine, uint lane) {
 }
 
 float measure_candidate(Query query, Candidate candidate) {
-    precise vec3 d = candidate.point - query.point;
-    precise float squared = d.x * d.x + d.y * d.y + d.z * d.z;
-    float height = settings.flatness > 0.0 ? dot(query.normal, d) / settings.flatness : 0.0;
-    return dot(candidate.normal, query.normal) > SAME_SURFACE_COSINE ? max(squared, height * height) : INFINITY;
+    return measure_on_surface(candidate.point - query.point, query.normal, candidate.normal, settings.flatness);
 }
 
 float measure_limit(Query query, float distance2) {
-    return settings.flatness > 0.0 ? distance2 / min(1.0, settings.flatness * settings.flatness) : distance2;
+    return limit_measure(distance2, settings.flatness);
 }
 
 // Squared radius of the estimate: the (k + 1)-th photon's measure; the farthest's when there are no more.

@@ -3,6 +3,7 @@
 // A photon counts within radius r when n_i·n > 0.7, d_i ≤ r and |n·(x_i - x)| ≤ flatness·r: its measure is the
 // smallest such r, squared. Define KERNEL. Inputs: tree_normals (tree order), power_object (by photon id).
 #include "estimate/density.glsl"
+#include "photons/same_surface.glsl"
 #include "photons/select_nearest.glsl"
 #pragma binding texel tree_normals
 #pragma binding readonly vec4 power_object
@@ -12,11 +13,9 @@ vec3 gather_normal;
 float gather_flatness;
 
 bool measure_photon(uint position, vec4 photon, out float measure) {
-    precise vec3 d = photon.xyz - gather_point;
-    precise float squared = d.x * d.x + d.y * d.y + d.z * d.z;
-    float height = gather_flatness > 0.0 ? dot(gather_normal, d) / gather_flatness : 0.0;
-    measure = max(squared, height * height);
-    return dot(tree_normals_at(position).xyz, gather_normal) > SAME_SURFACE_COSINE;
+    measure = measure_on_surface(photon.xyz - gather_point, gather_normal, tree_normals_at(position).xyz,
+                                 gather_flatness);
+    return measure < INFINITY;
 }
 
 vec3 estimate_irradiance(uint photon_count, uint leaf_level, uint k) {

@@ -3,10 +3,8 @@
 // in a list in shared memory that is cut back to k whenever it has grown.
 // The kernel defines `bool measure_photon(uint position, vec4 photon, out float measure)`, never below the squared
 // distance. Inputs: tree_nodes (2 texels a node), tree_positions (xyz, w photon id).
-#include "photons/tree_layout.glsl"
+#include "photons/tree_texels.glsl"
 #include "shared/turns.glsl"
-#pragma binding texel tree_nodes
-#pragma binding texel tree_positions
 
 #define WIDTH gl_WorkGroupSize.x
 #define LANE gl_LocalInvocationID.x

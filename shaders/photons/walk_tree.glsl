@@ -4,10 +4,8 @@
 // The kernel defines `float measure_node(uint node)`, the squared distance to the node, INFINITY when it is not wanted,
 // and LEAF_LIST_SIZE, the leaves that may wait (one step of the walk adds up to TREE_FANOUT).
 // Inputs: tree_nodes (2 texels a node), tree_positions (xyz, w photon id).
-#include "photons/tree_layout.glsl"
+#include "photons/tree_texels.glsl"
 #include "shared/turns.glsl"
-#pragma binding texel tree_nodes
-#pragma binding texel tree_positions
 
 #define WIDTH gl_WorkGroupSize.x
 #define LANE gl_LocalInvocationID.x

@@ -82,15 +82,6 @@ vec3 transmit_interior(Surface surface, vec3 direction, float distance) {
     return vec3(exp_exact(depth.r), exp_exact(depth.g), exp_exact(depth.b));
 }
 
-// Orthonormal basis around a unit vector (Duff et al. 2017).
-void build_basis(vec3 n, out vec3 u, out vec3 v) {
-    float s = n.z >= 0.0 ? 1.0 : -1.0;
-    float a = -1.0 / (s + n.z);
-    float b = n.x * n.y * a;
-    u = vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x);
-    v = vec3(b, s + n.y * n.y * a, -n.y);
-}
-
 // Cosine-weighted direction about the unit normal n.
 vec3 sample_cosine(vec3 n, float u1, float u2) {
     float s, c;

@@ -59,3 +59,12 @@ vec3 normalize_safely(vec3 v) {
 }
 
 float square(float x) { return x * x; }
+
+// Orthonormal basis around a unit vector (Duff et al. 2017).
+void build_basis(vec3 n, out vec3 u, out vec3 v) {
+    float s = n.z >= 0.0 ? 1.0 : -1.0;
+    float a = -1.0 / (s + n.z);
+    float b = n.x * n.y * a;
+    u = vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x);
+    v = vec3(b, s + n.y * n.y * a, -n.y);
+}

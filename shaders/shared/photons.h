@@ -32,6 +32,14 @@ struct TreeBuild {
     uint last_level;  // levels root_level … last_level are built by this dispatch
 };
 
+// Boxes made anew after photons moved, nodes first … first + count - 1 of one level.
+struct TreeRefit {
+    uint photon_count;
+    uint level;
+    uint first;
+    uint count;
+};
+
 struct NeighborQuery {
     uint first;
     uint count;
@@ -45,6 +53,19 @@ struct NeighborQuery {
     uint pad0;
     uint pad1;
     uint pad2;
+};
+
+// Photons of a map, a tile after the other in tree order, gather from each other (photons/gather.glsl).
+struct GatherSettings {
+    vec4 period; // xyz metres: space repeats, 0: it does not; w unused
+    uint first;  // tree position of the first photon of this dispatch …
+    uint count;  // … and how many there are
+    uint photon_count;
+    uint leaf_level;
+    uint k;         // neighbours; the next one gives the radius
+    uint batches;   // subgroups of photons a workgroup takes in turn
+    float flatness; // largest height above the tangent plane, as a share of r; 0: no test
+    float carry;    // the radii hold squared radii of this share of what is sought; 0: nothing
 };
 
 // Kernels of density estimation (METHODS §2).

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// Binds engine/relax: a relaxation that is stepped, and what came of it as arrays.
+#include "binding.h"
+
+#include "relax/relaxation.h"
+
+namespace photonloupe::bindings {
+namespace {
+
+// A relaxation with the photons it reads from.
+struct OpenRelaxation {
+    std::shared_ptr<Photons> photons;
+    Relaxation relaxation;
+};
+
+Descriptor parse_descriptor(const std::string& name) {
+    if (name == "none")
+        return Descriptor::none;
+    if (name == "gradient")
+        return Descriptor::gradient;
+    if (name == "pca")
+        return Descriptor::pca;
+    if (name == "tensor")
+        return Descriptor::tensor;
+    if (name == "split")
+        return Descriptor::split;
+    throw Error("descriptor is '" + name + "'; it must be none, gradient, pca, tensor or split");
+}
+
+Space parse_space(const std::string& name) {
+    if (name == "world")
+        return Space::world;
+    if (name == "parameter")
+        return Space::parameter;
+    throw Error("space is '" + name + "'; it must be world or parameter");
+}
+
+RelaxSettings read_settings(const nb::dict& given) {
+    RelaxSettings settings;
+    settings.steps = nb::cast<std::uint32_t>(given["steps"]);
+    settings.neighbors = nb::cast<std::uint32_t>(given["neighbors"]);
+    settings.over_relaxation = nb::cast<std::array<float, 2>>(given["over_relaxation"]);
+    settings.limit = nb::cast<float>(given["limit"]);
+    settings.repel = parse_space(nb::cast<std::string>(given["repel"]));
+    settings.beta = nb::cast<float>(given["beta"]);
+    settings.search =
+        nb::cast<std::string>(given["search"]) == "carried" ? RadiusSearch::carried : RadiusSearch::exact;
+    settings.diffuse_flux = nb::cast<bool>(given["diffuse_flux"]);
+    settings.period = nb::cast<std::array<float, 3>>(given["period"]);
+    settings.constraint.descriptor = parse_descriptor(nb::cast<std::string>(given["descriptor"]));
+    settings.constraint.space = parse_space(nb::cast<std::string>(given["constraint"]));
+    settings.constraint.neighbors = nb::cast<std::uint32_t>(given["constraint_neighbors"]);
+    settings.constraint.beta = settings.beta;
+    const auto thresholds = nb::cast<std::array<float, 2>>(given["thresholds"]);
+    settings.constraint.free_at = thresholds[0];
+    settings.constraint.fixed_at = thresholds[1];
+    return settings;
+}
+
+std::shared_ptr<OpenRelaxation> start(OpenDevice& open, std::shared_ptr<Photons> photons, nb::object scene,
+                                      const nb::dict& given, nb::object progress) {
+    const RelaxSettings settings = read_settings(given);
+    const Scene* surface = scene.is_none() ? nullptr : nb::cast<const Scene*>(scene);
+    return PythonProgress(std::move(progress)).run([&](const Progress& asked) {
+        return std::make_shared<OpenRelaxation>(
+            OpenRelaxation{photons, open.workbench.start_relaxation(*photons, surface, settings, asked)});
+    });
+}
+
+nb::dict step(OpenRelaxation& open, nb::object progress) {
+    const StepReport report =
+        PythonProgress(std::move(progress)).run([&](const Progress& asked) { return open.relaxation.step(asked); });
+    nb::dict row;
+    row["step"] = report.step;
+    row["tau"] = report.tau;
+    row["mean_move"] = report.mean_move;
+    row["largest_move"] = report.largest_move;
+    row["mean_pressure"] = report.mean_pressure;
+    row["mean_displacement"] = report.mean_metres;
+    row["flux_drift"] = report.flux_drift;
+    return row;
+}
+
+// The map with its new places, and the state columns by name; those that were not measured are left out.
+nb::tuple read(OpenRelaxation& open) {
+    RelaxedColumns columns = open.relaxation.read();
+    auto photons = std::make_shared<Photons>();
+    photons->map = std::move(columns.map);
+    photons->report = open.photons->report;
+    photons->store = open.photons->store;
+    nb::dict state;
+    state["drift"] = own_array(std::move(columns.drift), 3);
+    state["pressure"] = own_array(std::move(columns.pressure));
+    if (!columns.basis.empty()) {
+        const std::size_t count = columns.weights.size() / 2;
+        state["constraint_basis"] = own_pixels(std::move(columns.basis), count, 2);
+        state["constraint_weights"] = own_array(std::move(columns.weights), 2);
+        state["gradient"] = own_array(std::move(columns.gradient), 3);
+        state["one_sidedness"] = own_array(std::move(columns.one_sidedness));
+    }
+    return nb::make_tuple(photons, state, columns.off_surface_count);
+}
+
+} // namespace
+
+void bind_relax(nb::module_& module) {
+    nb::class_<OpenRelaxation>(module, "Relaxation")
+        .def("step", &step, nb::arg("progress").none() = nb::none(), "One step; what it did.")
+        .def("read", &read, "(map, state columns by photon id, photons off their surface).");
+    module.def("start_relaxation", &start, nb::arg("device"), nb::arg("photons"), nb::arg("scene").none(),
+               nb::arg("settings"), nb::arg("progress").none() = nb::none(), nb::keep_alive<0, 1>(),
+               "Measure the constraint and stand ready; settings: steps, neighbors, over_relaxation, limit, repel, "
+               "beta, search, diffuse_flux, period, descriptor, constraint, constraint_neighbors, thresholds.");
+}
+
+} // namespace photonloupe::bindings

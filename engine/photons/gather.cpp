@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// Specialises and dispatches the gathering kernels.
+#include "photons/gather.h"
+
+#include <array>
+#include <cstring>
+#include <sstream>
+
+#include "photons/query_tree.h"
+#include "photons/same_surface.h"
+
+namespace photonloupe {
+namespace {
+
+// Photons a bracket may leave to be ranked: see docs/methods.md for how it was chosen.
+constexpr std::uint32_t SHELL_SIZE = 32;
+// Subgroups of photons a workgroup takes in turn: amortises its start.
+constexpr std::uint32_t BATCHES = 4;
+constexpr std::array<const char*, 3> PLANES{"yz", "xz", "xy"}; // without axis 0, 1, 2
+
+std::string write_shell_load() {
+    std::ostringstream text;
+    text << "LOAD_SHELL";
+    for (std::uint32_t i = 0; i < SHELL_SIZE; ++i)
+        text << " value[" << i << "] = " << i << "u < stored ? shell_measures[" << i
+             << "u * WIDTH + LANE] : INFINITY;";
+    return text.str();
+}
+
+} // namespace
+
+std::string find_flat_axes(const KdTree& tree) {
+    if (tree.count == 0)
+        return "";
+    const std::vector<glm::vec4> positions = tree.positions.read<glm::vec4>(tree.count);
+    const std::vector<glm::vec4> normals = tree.normals.read<glm::vec4>(tree.count);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        glm::vec3 along(0.0f);
+        along[axis] = normals[0][axis];
+        if (std::abs(along[axis]) != 1.0f)
+            continue;
+        for (std::size_t i = 0; i < positions.size(); ++i)
+            if (glm::vec3(normals[i]) != along || positions[i][axis] != positions[0][axis])
+                return "";
+        return PLANES[axis];
+    }
+    return "";
+}
+
+std::vector<std::string> list_gather_defines(const GatherShape& shape) {
+    std::vector<std::string> defines{"SHELL_SIZE " + std::to_string(SHELL_SIZE) + "u",
+                                     "SORT_NETWORK " + write_sort_network(SHELL_SIZE), write_shell_load()};
+    if (!shape.flat_axes.empty())
+        defines.push_back("FLAT_AXES " + shape.flat_axes);
+    if (shape.period != std::array<float, 3>{})
+        defines.emplace_back("PERIODIC");
+    if (shape.parameter_count > 0) {
+        defines.push_back("PARAMETER_COUNT " + std::to_string(shape.parameter_count) + "u");
+        defines.push_back("PARAMETER_ROWS " + std::to_string((shape.parameter_count + 3) / 4) + "u");
+        if (shape.has_periodic_parameters)
+            defines.emplace_back("PERIODIC_PARAMETERS");
+    }
+    return defines;
+}
+
+shared::GatherSettings make_gather_settings(const KdTree& tree, const GatherShape& shape, std::uint32_t k) {
+    shared::GatherSettings settings{};
+    settings.period = {shape.period[0], shape.period[1], shape.period[2], 0.0f};
+    settings.photon_count = static_cast<std::uint32_t>(tree.count);
+    settings.leaf_level = tree.leaf_level;
+    settings.k = k;
+    settings.flatness = SURFACE_FLATNESS;
+    return settings;
+}
+
+void run_gather(gpu::Device& device, const KdTree& tree, const std::string& kernel,
+                const std::vector<std::string>& defines, shared::GatherSettings settings, const std::string& stage,
+                const GatherDispatch& dispatch, const Progress& progress) {
+    if (tree.count == 0)
+        return;
+    const std::uint32_t width = device.limits().subgroup_size;
+    for (const std::uint32_t batches : {BATCHES, 1u}) { // fewer photons share a workgroup's loop turns the second time
+        const gpu::Buffer unanswered = gpu::make_buffer(device, std::vector<std::uint32_t>{0}, "unanswered");
+        settings.batches = batches;
+        const std::uint64_t granule = std::uint64_t{width} * batches;
+        gpu::run_in_chunks(
+            device, stage, tree.count, granule, progress,
+            [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
+                settings.first = static_cast<std::uint32_t>(first);
+                settings.count = static_cast<std::uint32_t>(count);
+                dispatch(commands, {kernel, 0, defines, {}}, settings, unanswered,
+                         (count + granule - 1) / granule * width);
+            },
+            granule * device.limits().max_group_count);
+        if (unanswered.read<std::uint32_t>(1)[0] == 0)
+            return;
+    }
+    throw Error(stage + ": some photons reach more of the map than one workgroup can look through; are very many "
+                        "photons in one place, or of one layer spread over all of a large map?");
+}
+
+} // namespace photonloupe

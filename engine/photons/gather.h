@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// How kernels in which the photons of a map gather from each other are run (shaders/photons/gather.glsl).
+#pragma once
+
+#include <functional>
+
+#include "gpu/commands.h"
+#include "photons/kd_tree.h"
+
+namespace photonloupe {
+
+// What the kernels are specialised to.
+struct GatherShape {
+    std::string flat_axes;             // "xz": all photons lie in one plane of these axes and share a normal; "": not
+    std::array<float, 3> period{};     // metres after which space repeats; 0: it does not
+    std::uint32_t parameter_count = 0; // of those that decide who is a neighbour
+    bool has_periodic_parameters = false;
+};
+
+// Finds out whether all photons of a tree lie in one plane of two axes, with one normal.
+std::string find_flat_axes(const KdTree& tree);
+
+std::vector<std::string> list_gather_defines(const GatherShape& shape);
+
+shared::GatherSettings make_gather_settings(const KdTree& tree, const GatherShape& shape, std::uint32_t k);
+
+// Records one dispatch; gets the kernel, the settings of its chunk, and the flag to bind as `unanswered`.
+using GatherDispatch = std::function<void(gpu::Commands&, const gpu::KernelSource&, const shared::GatherSettings&,
+                                          const gpu::Buffer& unanswered, std::uint64_t invocations)>;
+
+// Runs a kernel over all photons of the tree, in tree order. Throws Error where photons are so crowded that a
+// workgroup cannot look through those it reaches.
+void run_gather(gpu::Device& device, const KdTree& tree, const std::string& kernel,
+                const std::vector<std::string>& defines, shared::GatherSettings settings, const std::string& stage,
+                const GatherDispatch& dispatch, const Progress& progress);
+
+} // namespace photonloupe

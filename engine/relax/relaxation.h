@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Photon relaxation, a step at a time (METHODS §3): photons repel their neighbours until they lie evenly, each as far
+// as its constraint allows, and stay on the surface they lie on.
+#pragma once
+
+#include <optional>
+
+#include "relax/constraint.h"
+#include "scene/scene_buffers.h"
+
+namespace photonloupe {
+
+// The surface photons return to, kept as long as the relaxation; `origin` is the scene's.
+struct RelaxSurface {
+    std::shared_ptr<const SceneBuffers> scene;
+    std::array<double, 3> origin{};
+};
+
+// What one step did.
+struct StepReport {
+    std::uint32_t step = 0;
+    double tau = 0;           // over-relaxation (2)
+    double mean_move = 0;     // of |move|/r
+    double largest_move = 0;  // of |move|/r
+    double mean_pressure = 0; // of |f'|/r, before constraint and limiter
+    double mean_metres = 0;   // of |move|
+    double flux_drift = 0;    // relative, before the total was restored
+};
+
+// What came of it, by photon id.
+struct RelaxedColumns {
+    PhotonMap map;                      // without paths
+    std::vector<float> drift;           // 3 a photon, metres since the constraint was measured
+    std::vector<float> pressure;        // of the last step
+    std::vector<float> basis;           // 6 a photon: u_b, v_b
+    std::vector<float> weights;         // 2: w_u, w_v
+    std::vector<float> gradient;        // 3: ∇f/f in 1/m
+    std::vector<float> one_sidedness;
+    std::uint64_t off_surface_count = 0; // photons that moved in their tangent plane
+};
+
+class Relaxation {
+public:
+    // Measures the constraint. Without a surface's scene photons move in their tangent planes.
+    // `parameter_tree` is needed where constraint or repulsion look at parameters.
+    Relaxation(gpu::Device& device, const PhotonMap& photons, const KdTree& tree, const ParameterTree* parameter_tree,
+               const RelaxSettings& settings, RelaxSurface surface, const Progress& progress);
+
+    // One step (Jacobi: all photons see the places before it).
+    StepReport step(const Progress& progress);
+
+    std::uint32_t step_count() const { return m_step; }
+    const RelaxSettings& settings() const { return m_settings; }
+    RelaxedColumns read() const;
+
+private:
+    void find_surface(const Progress& progress);
+    void shift_photons();
+    void repel(float tau, const Progress& progress);
+    void move(const Progress& progress);
+    StepReport report_step(float tau);
+    void read_state(RelaxedColumns& columns, const std::vector<glm::vec4>& order) const;
+
+    gpu::Device& m_device;
+    const PhotonMap& m_photons;
+    RelaxSettings m_settings;
+    RelaxSurface m_surface;
+    KdTree m_tree;          // of the photons where they are
+    gpu::Buffer m_start;    // where they were, tree order
+    gpu::Buffer m_next;     // where a step puts them
+    gpu::Buffer m_radii;    // squared, of the last query
+    gpu::Buffer m_moves;    // xyz metres, w pressure
+    gpu::Buffer m_triangles;
+    Layers m_layers;        // of repulsion
+    GatherShape m_shape;    // of repulsion
+    Constraint m_constraint;
+    float m_carry = 0;      // share of the squared radii that the next query looks for
+    std::array<double, 3> m_shift{}; // of positions: the map's origin less the scene's
+    float m_spacing = 0;
+    std::uint32_t m_step = 0;
+};
+
+} // namespace photonloupe

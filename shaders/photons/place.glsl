@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// Places of photons: points of space, or, where all photons lie in one plane of two axes, points of that plane
+// (define FLAT_AXES, as in "xz"). Define PERIODIC where space repeats, and `Place period`, 0 where it doesn't.
+#include "photons/tree_texels.glsl"
+
+#ifdef FLAT_AXES
+#define Place vec2
+#define take_place(v) (v).FLAT_AXES
+#else
+#define Place vec3
+#define take_place(v) (v).xyz
+#endif
+
+// A place so far off that nobody reaches it, whose square is still a float.
+#define FAR_PLACE Place(1e18)
+
+// Rounding of wrapped differences, as a share of the period.
+const float WRAP_ROUNDING = 4e-7;
+
+#ifdef PERIODIC
+Place period;
+Place inverse_period; // 0 where space does not repeat
+Place wrap_offset(Place d) { return d - period * round(d * inverse_period); }
+#else
+#define wrap_offset(d) (d)
+#endif
+
+float square_length(Place d) {
+#ifdef FLAT_AXES
+    precise float squared = d.x * d.x + d.y * d.y;
+#else
+    precise float squared = d.x * d.x + d.y * d.y + d.z * d.z;
+#endif
+    return squared;
+}
+
+Place find_least(Place p, bool counts) {
+    p = counts ? p : Place(INFINITY);
+    for (int axis = 0; axis < p.length(); ++axis) p[axis] = subgroupMin(p[axis]);
+    return p;
+}
+
+Place find_most(Place p, bool counts) {
+    p = counts ? p : Place(-INFINITY);
+    for (int axis = 0; axis < p.length(); ++axis) p[axis] = subgroupMax(p[axis]);
+    return p;
+}
+
+void set_period(vec4 space_period) {
+#ifdef PERIODIC
+    period = take_place(space_period);
+    for (int axis = 0; axis < period.length(); ++axis)
+        inverse_period[axis] = period[axis] > 0.0 ? 1.0 / period[axis] : 0.0;
+#endif
+}
+
+// Squared distance between two boxes.
+float measure_box_gap(Place lo, Place hi, Place other_lo, Place other_hi) {
+    Place gap = max(max(lo - other_hi, other_lo - hi), Place(0.0));
+#ifdef PERIODIC
+    Place before = max(max(lo - other_hi + period, other_lo - hi - period), Place(0.0));
+    Place after = max(max(lo - other_hi - period, other_lo - hi + period), Place(0.0));
+    // Wrapping an offset rounds otherwise than wrapping a gap.
+    gap = max(min(gap, min(before, after)) - period * WRAP_ROUNDING, Place(0.0));
+#endif
+    return square_length(gap);
+}
+
+float measure_gap(Place lo, Place hi, uint node) {
+    return measure_box_gap(lo, hi, take_place(tree_nodes_at(2u * node)), take_place(tree_nodes_at(2u * node + 1u)));
+}
+
+// Shares of a box's longest side below which it counts as a line.
+const float LINE_SHARE = 0.02;
+
+// Squared radius that holds `k` neighbours if a leaf's photons lie evenly over its box or along it.
+float guess_radius2(uint photon_count, uint leaf_level, uint position, uint k) {
+    float share = float(position) / float(photon_count); // exact enough for a guess
+    uint leaf = min(uint(share * float(1u << leaf_level)), (1u << leaf_level) - 1u);
+    uint photons = find_first_position(photon_count, leaf + 1u, leaf_level) -
+                   find_first_position(photon_count, leaf, leaf_level);
+    uint node = (1u << leaf_level) + leaf;
+    Place extent = take_place(tree_nodes_at(2u * node + 1u)) - take_place(tree_nodes_at(2u * node));
+#ifdef FLAT_AXES
+    float longest = max(extent.x, extent.y);
+    float middle = min(extent.x, extent.y);
+#else
+    float longest = max(extent.x, max(extent.y, extent.z));
+    float shortest = min(extent.x, min(extent.y, extent.z));
+    float middle = extent.x + extent.y + extent.z - longest - shortest;
+#endif
+    float each = float(k + 1u) / float(photons);
+    float along = 0.5 * longest * each;
+    return middle > LINE_SHARE * longest ? longest * middle * each / PI : along * along;
+}

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Brings a subgroup of photons, a batch, to all that any of them reaches: walks the tree with the box about the batch
+// and visits the photons of every leaf within reach, a subgroup's width (a tile) at a time.
+// The kernel includes its candidates first (photons/world_candidates.glsl, photons/parameter_candidates.glsl) and
+// defines void visit_tile(uint next, uint end), called with the tree positions of a tile, the last of its leaf cut off.
+#define LEAF_LIST_SIZE 64u
+#include "photons/walk_tree.glsl"
+
+Place batch_lo;
+Place batch_hi;
+float batch_reach; // squared
+
+void visit_tile(uint next, uint end);
+
+// Squared distance from the batch's box to a node's; INFINITY when no lane reaches so far.
+float measure_node(uint node) {
+    float distance = measure_node_gap(batch_lo, batch_hi, node);
+    return distance <= batch_reach ? distance : INFINITY;
+}
+
+// Lanes that do not search have no part in the box.
+void set_batch(bool searching, float reach2) {
+    batch_lo = find_least(my_place(), searching);
+    batch_hi = find_most(my_place(), searching);
+    batch_reach = subgroupMax(searching ? reach2 : -1.0);
+}
+
+// Visits all listed leaves.
+void visit_leaves(uint leaf_count, uint photon_count, uint leaf_level) {
+    uint leaf = 0u;
+    bool goes_on = leaf_count > 0u;
+    while (goes_on) {
+        uint j = leaf_list[leaf] - (1u << leaf_level);
+        uint next = find_first_position(photon_count, j, leaf_level);
+        uint end = find_first_position(photon_count, j + 1u, leaf_level);
+        do {
+            ++turns;
+            visit_tile(next, end);
+            next += WIDTH;
+        } while (next < end);
+        ++turns;
+        ++leaf;
+        goes_on = leaf < leaf_count;
+    }
+    synchronize();
+}

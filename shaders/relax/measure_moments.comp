@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// Moments of each photon's neighbours in its tangent plane: gradient and one-sidedness (METHODS §5.1), and the
+// descriptors that need no more (§5.2 pca; `gradient`: one-sidedness alone).
+// Inputs: the tree, tree_normals, parameters where they decide, radii (guesses). Outputs, tree order: offsets
+// (xyz g = m/r, w neighbours K'), member_radii (x r², y weight of photons at just r, z one-sidedness, w axis ratio t),
+// constraint_along (u_b, w_u), constraint_across (v_b, w_v), radii, unanswered.
+// Define DESCRIPTOR (shared/relax.h).
+#include "shared/prelude.glsl"
+#include "shared/relax.h"
+#include "relax/tangent_plane.glsl"
+#include "relax/eigen.glsl"
+
+vec2 offset_sum;
+vec3 square_sum; // xx, xy, yy
+
+void clear_sums() {
+    offset_sum = vec2(0.0);
+    square_sum = vec3(0.0);
+}
+
+void accumulate(Candidate other, float weight) {
+    vec2 e = project_offset(find_offset(other));
+    vec2 w = weight * e;
+    offset_sum += w;
+    square_sum += vec3(w.x * e.x, w.x * e.y, w.y * e.y);
+}
+
+#include "photons/gather.glsl"
+#include "relax/write_constraint.glsl"
+#pragma binding coherent float radii
+#pragma binding writeonly vec4 offsets
+#pragma binding writeonly vec4 member_radii
+#pragma binding writeonly uint unanswered
+
+layout(push_constant) uniform Push { DescribeSettings settings; };
+
+// A half disc's mean offset is 4/(3π) of its radius.
+const float HALF_DISC_OFFSET = 0.4244;
+// One-sidedness from which on a photon counts as lying at an edge, and the span to a sure one.
+const float EDGE_FROM = 0.35;
+const float EDGE_SPAN = 0.45;
+
+void describe_photon(uint position) {
+    float members = my_gathered.others > 0u ? my_gathered.members : 0.0;
+    float r = sqrt(my_gathered.r2);
+    bool has_extent = r > 0.0 && members > 0.0;
+    // In units of r, so that squares of tiny scenes do not underflow.
+    vec2 mean = has_extent ? offset_sum / members / r : vec2(0.0);
+    vec3 squares = has_extent ? square_sum / members / my_gathered.r2 : vec3(0.0);
+    float one_sidedness = sqrt(dot(mean, mean)) / HALF_DISC_OFFSET;
+    Eigen e = decompose(squares.x - mean.x * mean.x, squares.y - mean.x * mean.y, squares.z - mean.y * mean.y);
+    float ratio = e.first > 0.0 ? sqrt(e.second / e.first) : 1.0;
+    offsets[position] = vec4(lift_tangent(mean), members);
+    member_radii[position] = vec4(my_gathered.r2, my_gathered.tie_weight, one_sidedness, ratio);
+#if DESCRIPTOR == 1 || DESCRIPTOR == 2 // gradient, pca
+    float edge = clamp((one_sidedness - EDGE_FROM) / EDGE_SPAN, 0.0, 1.0);
+    float line = DESCRIPTOR == 2 ? ramp(ratio, settings.free_at, settings.fixed_at) : 0.0;
+    vec2 across = edge > line || DESCRIPTOR == 1 ? mean : vec2(-e.axis.y, e.axis.x);
+    write_constraint(position, members, mean, across, has_extent ? max(edge, line) : 0.0);
+#endif
+}
+
+void main() {
+    uint first = gl_WorkGroupID.x * WIDTH * settings.gather.batches;
+    for (uint batch = 0u; batch < settings.gather.batches; ++batch) {
+        uint turn = first + batch * WIDTH + LANE;
+        bool has_photon = turn < settings.gather.count;
+        uint position = settings.gather.first + min(turn, settings.gather.count - 1u);
+        take_photon(position, settings.gather.period, settings.gather.flatness);
+        set_tangents();
+        float guess2 = radii[position] * settings.gather.carry;
+        if (guess2 <= 0.0)
+            guess2 = guess_radius2(settings.gather.photon_count, settings.gather.leaf_level, position, settings.gather.k);
+        gather_members(has_photon, settings.gather.photon_count, settings.gather.leaf_level, settings.gather.k, guess2);
+        if (has_photon) {
+            describe_photon(position);
+            radii[position] = my_gathered.r2;
+            if (!has_turns_left()) unanswered[0] = 1u;
+        }
+    }
+}

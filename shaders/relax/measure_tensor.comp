@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// The `tensor` descriptor (METHODS §5.3): the structure tensor of normalised offsets g = m/r over each photon and its
+// neighbours. Inputs: the tree, tree_normals, parameters where they decide, offsets and member_radii of
+// relax/measure_moments.comp. Outputs: constraint_along, constraint_across, unanswered.
+#include "shared/prelude.glsl"
+#include "shared/relax.h"
+#include "relax/tangent_plane.glsl"
+#include "relax/eigen.glsl"
+#include "photons/stream_members.glsl"
+#include "relax/write_constraint.glsl"
+#pragma binding texel offsets
+#pragma binding readonly vec4 member_radii
+#pragma binding writeonly uint unanswered
+
+layout(push_constant) uniform Push { DescribeSettings settings; };
+
+// Mean eigenvalue of noise: the offset of k random photons has variance 1/(4k) along each axis.
+const float NOISE = 0.25;
+
+vec3 tensor_sum; // xx, xy, yy
+vec3 tile_offset;
+
+void load_payload(uint position) { tile_offset = offsets_at(position).xyz; }
+
+void meet_member(uint lane, float weight) {
+    vec3 offset = vec3(subgroupBroadcast(tile_offset.x, lane), subgroupBroadcast(tile_offset.y, lane),
+                       subgroupBroadcast(tile_offset.z, lane));
+    vec2 g = project_vector(offset);
+    vec2 w = weight * g;
+    tensor_sum += vec3(w.x * g.x, w.x * g.y, w.y * g.y);
+}
+
+void main() {
+    uint first = gl_WorkGroupID.x * WIDTH * settings.gather.batches;
+    for (uint batch = 0u; batch < settings.gather.batches; ++batch) {
+        uint turn = first + batch * WIDTH + LANE;
+        bool has_photon = turn < settings.gather.count;
+        uint position = settings.gather.first + min(turn, settings.gather.count - 1u);
+        take_photon(position, settings.gather.period, settings.gather.flatness);
+        set_tangents();
+        vec4 found = member_radii[position];
+        vec4 own = offsets_at(position);
+        tensor_sum = vec3(0.0);
+        // The photon meets itself among its members, with full weight.
+        stream_members(has_photon, settings.gather.photon_count, settings.gather.leaf_level, found.x, found.y);
+        if (found.x == 0.0) tensor_sum = vec3(0.0); // all in one place: no offset
+        vec3 mean = tensor_sum / (own.w + 1.0);
+        Eigen e = decompose(mean.x, mean.y, mean.z);
+        float value = own.w > 0.0 ? e.first * own.w / NOISE : 0.0;
+        if (has_photon) {
+            write_constraint(position, own.w, project_vector(own.xyz), e.axis,
+                             ramp(value, settings.free_at, settings.fixed_at));
+            if (!has_turns_left()) unanswered[0] = 1u;
+        }
+    }
+}
