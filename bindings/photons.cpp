@@ -109,16 +109,52 @@ nb::tuple take_neighbors(const Neighbors& neighbors, std::size_t rows, std::uint
 }
 
 using Ids = nb::ndarray<nb::numpy, const std::uint32_t, nb::ndim<1>, nb::c_contig>;
+using Points = nb::ndarray<nb::numpy, const double, nb::ndim<2>, nb::c_contig>;
 
-nb::tuple find_near(OpenDevice& open, Photons& photons, std::optional<Matrix<const double, 3>> points,
-                    std::optional<Ids> ids, std::uint32_t k, nb::object progress) {
-    const std::vector<glm::vec4> local =
-        points ? localize_points(photons.map, {points->data(), points->size()}) : std::vector<glm::vec4>{};
+// `points` are of world space, or, in parameter space, rows of all parameters.
+Neighbors find_in_space(OpenDevice& open, Photons& photons, std::span<const double> points,
+                        std::span<const std::uint32_t> ids, bool has_points, std::uint32_t k, const std::string& space,
+                        float beta, std::int64_t center, const std::vector<float>& low, const std::vector<float>& high,
+                        const Progress& asked) {
+    Workbench& bench = open.workbench;
+    if (space == "parameter")
+        return has_points ? bench.find_parameter_neighbors(photons, points, k, asked)
+                          : bench.find_parameter_neighbors_of(photons, ids, k, asked);
+    if (!has_points)
+        return space == "world" ? bench.find_neighbors_of(photons, ids, k, asked)
+                                : bench.find_layer_neighbors_of(photons, ids, k, beta, asked);
+    const std::vector<glm::vec4> local = localize_points(photons.map, points);
+    if (space == "world")
+        return bench.find_neighbors(photons, local, k, asked);
+    if (center >= 0)
+        return bench.find_layer_neighbors(photons, local, static_cast<std::uint32_t>(center), k, beta, asked);
+    return bench.find_range_neighbors(photons, local, low, high, k, asked);
+}
+
+nb::tuple find_near(OpenDevice& open, Photons& photons, std::optional<Points> points, std::optional<Ids> ids,
+                    std::uint32_t k, const nb::dict& query, nb::object progress) {
+    const auto space = nb::cast<std::string>(query["space"]);
+    const auto beta = nb::cast<float>(query["beta"]);
+    const auto center = nb::cast<std::int64_t>(query["center"]);
+    const auto take = [&](const char* name) {
+        return query[name].is_none() ? std::vector<float>{} : nb::cast<std::vector<float>>(query[name]);
+    };
+    const std::vector<float> low = take("low"), high = take("high");
+    const std::span<const double> values = points ? std::span(points->data(), points->size()) : std::span<const double>{};
+    const std::span<const std::uint32_t> named =
+        ids ? std::span(ids->data(), ids->size()) : std::span<const std::uint32_t>{};
     const Neighbors found = PythonProgress(std::move(progress)).run([&](const Progress& asked) {
-        return points ? open.workbench.find_neighbors(photons, local, k, asked)
-                      : open.workbench.find_neighbors_of(photons, {ids->data(), ids->size()}, k, asked);
+        return find_in_space(open, photons, values, named, points.has_value(), k, space, beta, center, low, high, asked);
     });
-    return take_neighbors(found, points ? local.size() : ids->size(), k);
+    return take_neighbors(found, points ? points->shape(0) : ids->size(), k);
+}
+
+void set_parameters(OpenDevice& open, Photons& photons,
+                    nb::ndarray<nb::numpy, const float, nb::ndim<2>, nb::c_contig> values,
+                    const std::vector<float>& periods) {
+    photons.parameter_tree.reset();
+    photons.map.parameters = make_parameters(open.device, {values.data(), values.size()},
+                                             static_cast<std::uint32_t>(values.shape(1)), periods);
 }
 
 // A column of the paths, or None when they were not recorded.
@@ -178,8 +214,11 @@ void bind_photons(nb::module_& module) {
     module.def("photons_from_columns", &make_photons, nb::arg("device"), nb::arg("columns"),
                nb::arg("store") = "caustic", nb::keep_alive<0, 1>(), "Upload checked columns as a photon map.");
     module.def("find_neighbors", &find_near, nb::arg("device"), nb::arg("photons"), nb::arg("points").none(),
-               nb::arg("ids").none(), nb::arg("k"), nb::arg("progress").none() = nb::none(),
-               "The k nearest photons of points (n, 3), or of photons by id (n,); exactly one is not None.");
+               nb::arg("ids").none(), nb::arg("k"), nb::arg("query"), nb::arg("progress").none() = nb::none(),
+               "The k nearest photons of points, or of photons by id (n,); exactly one is not None. query: space, beta, "
+               "center, low, high.");
+    module.def("set_parameters", &set_parameters, nb::arg("device"), nb::arg("photons"), nb::arg("values"),
+               nb::arg("periods"), "Replace a map's parameters (n, m); a period of 0: it does not wrap.");
 }
 
 } // namespace photonloupe::bindings

@@ -107,6 +107,16 @@ void bind_relax(nb::module_& module) {
     nb::class_<OpenRelaxation>(module, "Relaxation")
         .def("step", &step, nb::arg("progress").none() = nb::none(), "One step; what it did.")
         .def("read", &read, "(map, state columns by photon id, photons off their surface).");
+    module.def(
+        "measure_isotropy",
+        [](OpenDevice& open, Photons& photons, std::uint32_t k, nb::object progress) {
+            std::vector<float> ratios = PythonProgress(std::move(progress)).run([&](const Progress& asked) {
+                return open.workbench.measure_isotropy(photons, k, asked);
+            });
+            return own_array(std::move(ratios));
+        },
+        nb::arg("device"), nb::arg("photons"), nb::arg("k"), nb::arg("progress").none() = nb::none(),
+        "Axis ratios (n,) of the world positions of each photon's k neighbours in parameter space; NaN: none.");
     module.def("start_relaxation", &start, nb::arg("device"), nb::arg("photons"), nb::arg("scene").none(),
                nb::arg("settings"), nb::arg("progress").none() = nb::none(), nb::keep_alive<0, 1>(),
                "Measure the constraint and stand ready; settings: steps, neighbors, over_relaxation, limit, repel, "

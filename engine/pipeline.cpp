@@ -59,6 +59,51 @@ Neighbors Workbench::find_neighbors_of(Photons& photons, std::span<const std::ui
     return photonloupe::find_neighbors_of(m_device, photons.map, find_tree(photons, progress), ids, k, progress);
 }
 
+Neighbors Workbench::find_parameter_neighbors(Photons& photons, std::span<const double> values, std::uint32_t k,
+                                              const Progress& progress) {
+    const ParameterTree& tree = find_parameter_tree(photons, progress);
+    return find_in_parameter_space(m_device, tree, ask_parameters_at(photons.map, tree, values), k, false, progress);
+}
+
+Neighbors Workbench::find_parameter_neighbors_of(Photons& photons, std::span<const std::uint32_t> ids,
+                                                 std::uint32_t k, const Progress& progress) {
+    const ParameterTree& tree = find_parameter_tree(photons, progress);
+    return find_in_parameter_space(m_device, tree, ask_parameters_of(photons.map, tree, ids), k, true, progress);
+}
+
+Neighbors Workbench::find_layer_neighbors_of(Photons& photons, std::span<const std::uint32_t> ids, std::uint32_t k,
+                                             float beta, const Progress& progress) {
+    const std::vector<float> radii2 =
+        find_radii2_of(m_device, photons.map, find_parameter_tree(photons, progress), ids, k, progress);
+    const KdTree& tree = find_tree(photons, progress);
+    const Layers layers = order_parameters(m_device, photons.map, tree, {}, 1.0f, progress);
+    return find_in_layers(m_device, photons.map, tree, layers, ask_layers_of(photons.map, ids, radii2, beta), k, true,
+                          progress);
+}
+
+Neighbors Workbench::find_layer_neighbors(Photons& photons, std::span<const glm::vec4> points, std::uint32_t center,
+                                          std::uint32_t k, float beta, const Progress& progress) {
+    const std::uint32_t ids[] = {center};
+    const std::vector<float> radii2 =
+        find_radii2_of(m_device, photons.map, find_parameter_tree(photons, progress), ids, k, progress);
+    const KdTree& tree = find_tree(photons, progress);
+    const Layers layers = order_parameters(m_device, photons.map, tree, {}, 1.0f, progress);
+    return find_in_layers(m_device, photons.map, tree, layers,
+                          ask_layer_at(photons.map, points, center, radii2[0], beta), k, false, progress);
+}
+
+Neighbors Workbench::find_range_neighbors(Photons& photons, std::span<const glm::vec4> points,
+                                          std::span<const float> low, std::span<const float> high, std::uint32_t k,
+                                          const Progress& progress) {
+    const KdTree& tree = find_tree(photons, progress);
+    const Layers layers = order_parameters(m_device, photons.map, tree, {}, 1.0f, progress);
+    return find_in_layers(m_device, photons.map, tree, layers, ask_ranges_at(points, low, high), k, false, progress);
+}
+
+std::vector<float> Workbench::measure_isotropy(Photons& photons, std::uint32_t k, const Progress& progress) {
+    return photonloupe::measure_isotropy(m_device, photons.map, find_parameter_tree(photons, progress), k, progress);
+}
+
 const ParameterTree& Workbench::find_parameter_tree(Photons& photons, const Progress& progress) {
     if (!photons.parameter_tree)
         photons.parameter_tree = build_parameter_tree(m_device, photons.map, progress);

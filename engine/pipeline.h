@@ -9,7 +9,8 @@
 #include <span>
 
 #include "estimate/render_image.h"
-#include "photons/find_neighbors.h"
+#include "photons/layered_queries.h"
+#include "relax/isotropy.h"
 #include "relax/relaxation.h"
 #include "trace/trace_photons.h"
 
@@ -39,7 +40,23 @@ public:
     Neighbors find_neighbors_of(Photons& photons, std::span<const std::uint32_t> ids, std::uint32_t k,
                                 const Progress& progress);
 
+    // In parameter space: around points of it (values, a row of all parameters each) or photons.
+    Neighbors find_parameter_neighbors(Photons& photons, std::span<const double> values, std::uint32_t k,
+                                       const Progress& progress);
+    Neighbors find_parameter_neighbors_of(Photons& photons, std::span<const std::uint32_t> ids, std::uint32_t k,
+                                          const Progress& progress);
+    // In world space among the photons of a layer: each photon's own, one photon's, or what lies within ranges.
+    Neighbors find_layer_neighbors_of(Photons& photons, std::span<const std::uint32_t> ids, std::uint32_t k, float beta,
+                                      const Progress& progress);
+    Neighbors find_layer_neighbors(Photons& photons, std::span<const glm::vec4> points, std::uint32_t center,
+                                   std::uint32_t k, float beta, const Progress& progress);
+    Neighbors find_range_neighbors(Photons& photons, std::span<const glm::vec4> points, std::span<const float> low,
+                                   std::span<const float> high, std::uint32_t k, const Progress& progress);
+
     const ParameterTree& find_parameter_tree(Photons& photons, const Progress& progress = {});
+
+    // Axis ratios of photons in world space around their k neighbours in parameter space, by id ([SJL15] eq. 5).
+    std::vector<float> measure_isotropy(Photons& photons, std::uint32_t k, const Progress& progress);
 
     // Measures the constraint and stands ready for the first step; `scene` may be null. The photons must outlive it.
     Relaxation start_relaxation(Photons& photons, const Scene* scene, const RelaxSettings& settings,

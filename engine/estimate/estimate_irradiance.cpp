@@ -25,7 +25,7 @@ gpu::Buffer estimate_irradiance(gpu::Device& device, const PhotonMap& photons, c
     shared::NeighborQuery push{};
     push.k = settings.k;
     push.flatness = settings.flatness;
-    run_queries(
+    const std::vector<std::uint32_t> left = run_queries(
         device, tree, kernels, order, push, "estimate irradiance",
         [&](gpu::Commands& commands, const gpu::KernelSource& kernel, const QueryBuffers& buffers,
             const shared::NeighborQuery& query, std::uint64_t invocations) {
@@ -44,6 +44,7 @@ gpu::Buffer estimate_irradiance(gpu::Device& device, const PhotonMap& photons, c
                               query, invocations);
         },
         progress);
+    require_answers(left, "estimate irradiance");
     return irradiance;
 }
 

@@ -47,6 +47,16 @@ std::string find_flat_axes(const KdTree& tree) {
     return "";
 }
 
+std::vector<std::string> list_parameter_defines(const GatherShape& shape) {
+    if (shape.parameter_count == 0)
+        return {};
+    std::vector<std::string> defines{"PARAMETER_COUNT " + std::to_string(shape.parameter_count) + "u",
+                                     "PARAMETER_ROWS " + std::to_string((shape.parameter_count + 3) / 4) + "u"};
+    if (shape.has_periodic_parameters)
+        defines.emplace_back("PERIODIC_PARAMETERS");
+    return defines;
+}
+
 std::vector<std::string> list_gather_defines(const GatherShape& shape) {
     std::vector<std::string> defines{"SHELL_SIZE " + std::to_string(SHELL_SIZE) + "u",
                                      "SORT_NETWORK " + write_sort_network(SHELL_SIZE), write_shell_load()};
@@ -54,12 +64,8 @@ std::vector<std::string> list_gather_defines(const GatherShape& shape) {
         defines.push_back("FLAT_AXES " + shape.flat_axes);
     if (shape.period != std::array<float, 3>{})
         defines.emplace_back("PERIODIC");
-    if (shape.parameter_count > 0) {
-        defines.push_back("PARAMETER_COUNT " + std::to_string(shape.parameter_count) + "u");
-        defines.push_back("PARAMETER_ROWS " + std::to_string((shape.parameter_count + 3) / 4) + "u");
-        if (shape.has_periodic_parameters)
-            defines.emplace_back("PERIODIC_PARAMETERS");
-    }
+    for (std::string& define : list_parameter_defines(shape))
+        defines.push_back(std::move(define));
     return defines;
 }
 

@@ -20,6 +20,8 @@ struct GatherShape {
 // Finds out whether all photons of a tree lie in one plane of two axes, with one normal.
 std::string find_flat_axes(const KdTree& tree);
 
+// What kernels that look at parameters are specialised to.
+std::vector<std::string> list_parameter_defines(const GatherShape& shape);
 std::vector<std::string> list_gather_defines(const GatherShape& shape);
 
 shared::GatherSettings make_gather_settings(const KdTree& tree, const GatherShape& shape, std::uint32_t k);

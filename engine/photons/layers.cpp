@@ -53,6 +53,33 @@ std::vector<std::uint32_t> order_by_extent(const Extents& extents) {
 
 } // namespace
 
+ParameterColumns make_parameters(gpu::Device& device, std::span<const float> values, std::uint32_t count,
+                                 std::vector<float> periods) {
+    ParameterColumns columns{count, {}, std::move(periods)};
+    const std::size_t photons = values.size() / count, rows = columns.count_rows();
+    std::vector<glm::vec4> packed(photons * rows, glm::vec4(0.0f));
+    for (std::size_t photon = 0; photon < photons; ++photon) {
+        const float* row = &values[photon * count];
+        const bool has_values = is_set(row, count);
+        for (std::uint32_t i = 0; i < count; ++i)
+            packed[photon * rows + i / 4][i % 4] = has_values ? row[i] : std::numeric_limits<float>::quiet_NaN();
+    }
+    columns.values = gpu::make_buffer(device, packed, "parameters");
+    return columns;
+}
+
+float measure_parameters(std::uint32_t count, std::span<const float> periods, std::span<const glm::vec4> a,
+                         std::span<const glm::vec4> b) {
+    float sum = 0.0f;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        float d = a[i / 4][i % 4] - b[i / 4][i % 4];
+        if (periods[i] > 0.0f)
+            d = d - periods[i] * std::nearbyint(d * (1.0f / periods[i]));
+        sum = sum + d * d;
+    }
+    return sum;
+}
+
 const ParameterColumns& require_parameters(const PhotonMap& photons) {
     if (!photons.parameters)
         throw Error("this map has no parameters; set them with set_parameters() or a script");
@@ -65,11 +92,12 @@ ParameterTree build_parameter_tree(gpu::Device& device, const PhotonMap& photons
     const std::vector<float> values = columns.values.read<float>(photons.count * stride);
     const Extents extents = find_extents(values, columns.count, stride);
     const std::vector<std::uint32_t> order = order_by_extent(extents);
+    const std::size_t axis_count = std::min<std::size_t>(TREE_AXES, columns.count);
     const std::vector<glm::vec4> positions = photons.position_emitter.read<glm::vec4>(photons.count);
     std::vector<glm::vec4> widest(photons.count);
     for (std::size_t i = 0; i < widest.size(); ++i) {
         const bool has_values = is_set(&values[i * stride], columns.count);
-        for (std::size_t axis = 0; axis < std::min<std::size_t>(TREE_AXES, columns.count); ++axis)
+        for (std::size_t axis = 0; axis < axis_count; ++axis)
             widest[i][axis] = has_values ? values[i * stride + order[axis]] : extents.lo[order[axis]];
         widest[i].w = positions[i].w;
     }
@@ -78,12 +106,13 @@ ParameterTree build_parameter_tree(gpu::Device& device, const PhotonMap& photons
     stand_in.position_emitter = gpu::make_buffer(device, widest, "parameters");
     stand_in.normal_index = gpu::make_buffer(device, std::vector<glm::vec4>(photons.count), "parameters");
     ParameterTree parameter_tree;
+    parameter_tree.axes.assign(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(axis_count));
     parameter_tree.tree = build_tree(device, stand_in, progress);
     double limit2 = 0;
     for (std::uint32_t i = 0; i < columns.count; ++i)
         limit2 += std::pow(static_cast<double>(extents.hi[i]) - extents.lo[i], 2);
     parameter_tree.limit2 = static_cast<float>(std::min(limit2 * 1.001 + 1e-30, 1e38));
-    for (std::size_t axis = 0; axis < std::min<std::size_t>(TREE_AXES, columns.count); ++axis)
+    for (std::size_t axis = 0; axis < axis_count; ++axis)
         parameter_tree.shape.period[axis] = columns.periods[order[axis]];
     add_parameters(parameter_tree.shape, photons);
     parameter_tree.parameters = order_parameters(device, photons, parameter_tree.tree, {}, 1.0f, progress).parameters;

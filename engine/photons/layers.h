@@ -2,6 +2,8 @@
 // Parameters of photons in tree order, and how far each photon's layer reaches in parameter space (METHODS §4).
 #pragma once
 
+#include <span>
+
 #include "photons/gather.h"
 #include "photons/photon_map.h"
 
@@ -13,7 +15,8 @@ struct ParameterTree {
     GatherShape shape;      // its period is that of those axes
     gpu::Buffer parameters; // in the tree's order
     gpu::Buffer periods;    // a float per parameter, 0: it does not wrap
-    float limit2 = 0;       // beyond every squared distance
+    std::vector<std::uint32_t> axes; // the parameters that the tree's axes are
+    float limit2 = 0;                // beyond every squared distance
 };
 
 // The photons of a tree as kernels gather them.
@@ -22,6 +25,14 @@ struct Layers {
     gpu::Buffer reach2;     // (β·r_q)²
     gpu::Buffer periods;    // as in ParameterTree
 };
+
+// Packs `count` values a photon and uploads them; a photon with a NaN among them has none at all.
+ParameterColumns make_parameters(gpu::Device& device, std::span<const float> values, std::uint32_t count,
+                                 std::vector<float> periods);
+
+// Squared distance of packed rows, in the kernels' order of operations; NaN where either photon has none.
+float measure_parameters(std::uint32_t count, std::span<const float> periods, std::span<const glm::vec4> a,
+                         std::span<const glm::vec4> b);
 
 // Throws Error when the map has none.
 const ParameterColumns& require_parameters(const PhotonMap& photons);

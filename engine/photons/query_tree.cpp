@@ -184,11 +184,12 @@ std::string write_sort_network(std::uint32_t size) {
     return text.str();
 }
 
-void run_queries(gpu::Device& device, const KdTree& tree, const QueryKernels& kernels,
-                 std::span<const std::uint32_t> order, shared::NeighborQuery settings, const std::string& stage,
-                 const QueryDispatch& dispatch, const Progress& progress) {
+std::vector<std::uint32_t> run_queries(gpu::Device& device, const KdTree& tree, const QueryKernels& kernels,
+                                       std::span<const std::uint32_t> order, shared::NeighborQuery settings,
+                                       const std::string& stage, const QueryDispatch& dispatch,
+                                       const Progress& progress) {
     if (order.empty())
-        return;
+        return {};
     settings.photon_count = static_cast<std::uint32_t>(tree.count);
     settings.leaf_level = tree.leaf_level;
     settings.guess2 = guess_radius2(tree, kernels.kept);
@@ -199,8 +200,14 @@ void run_queries(gpu::Device& device, const KdTree& tree, const QueryKernels& ke
         const std::vector<std::uint32_t> flags = unanswered.read<std::uint32_t>(order.size());
         std::erase_if(left, [&](std::uint32_t query) { return flags[query] == 0; });
         if (left.empty())
-            return;
+            break;
     }
+    return left;
+}
+
+void require_answers(std::span<const std::uint32_t> left, const std::string& stage) {
+    if (left.empty())
+        return;
     throw Error(stage + ": " + std::to_string(left.size()) + " queries, the first of row " +
                 std::to_string(*std::min_element(left.begin(), left.end())) +
                 ", reach more photons than one workgroup can look through; are very many photons in one place?");

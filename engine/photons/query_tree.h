@@ -36,10 +36,15 @@ using QueryDispatch = std::function<void(gpu::Commands&, const gpu::KernelSource
                                          const shared::NeighborQuery&, std::uint64_t invocations)>;
 
 // Runs all queries in `order` (a permutation of 0 … order.size() - 1): streaming where k allows it, else selecting.
-// What a workgroup did not finish is asked again with more turns each. Throws Error if that does not suffice either.
-void run_queries(gpu::Device& device, const KdTree& tree, const QueryKernels& kernels,
-                 std::span<const std::uint32_t> order, shared::NeighborQuery settings, const std::string& stage,
-                 const QueryDispatch& dispatch, const Progress& progress);
+// What a workgroup did not finish is asked again with more turns each. Returns the queries for which that did not
+// suffice either, and the numbers written for them mean nothing.
+std::vector<std::uint32_t> run_queries(gpu::Device& device, const KdTree& tree, const QueryKernels& kernels,
+                                       std::span<const std::uint32_t> order, shared::NeighborQuery settings,
+                                       const std::string& stage, const QueryDispatch& dispatch,
+                                       const Progress& progress);
+
+// Throws Error naming the first row unless all queries were answered.
+void require_answers(std::span<const std::uint32_t> left, const std::string& stage);
 
 // 0, 1, 2 …: queries that are coherent as they come.
 std::vector<std::uint32_t> keep_order(std::size_t count);

@@ -24,8 +24,11 @@ from photonloupe.errors import (
     ScriptError,
 )
 from photonloupe.image import Image, load_image
+from photonloupe.isotropy import Isotropy, OptimalBeta, optimal_beta
+from photonloupe.loading import load_photons
 from photonloupe.metrics import ImageDifference, compare_images
-from photonloupe.photons import PhotonMap, load_photons
+from photonloupe.photons import PhotonMap
+from photonloupe.relaxing import Relaxation
 from photonloupe.rendering import render
 from photonloupe.scene import Scene, load_scene
 from photonloupe.tracing import trace_photons
@@ -38,6 +41,9 @@ __all__ = [
     "DeviceMemoryError",
     "FileFormatError",
     "Image",
+    "Isotropy",
+    "OptimalBeta",
+    "Relaxation",
     "ImageDifference",
     "PhotonLoupeError",
     "PhotonMap",
@@ -50,6 +56,7 @@ __all__ = [
     "load_image",
     "load_photons",
     "load_scene",
+    "optimal_beta",
     "render",
     "trace_photons",
 ]

@@ -44,16 +44,34 @@ def check_choice(name: str, value: Any, choices: Iterable[str]) -> str:
     return str(value)
 
 
-def check_vectors(name: str, values: ArrayLike) -> NDArray[np.float64]:
-    """Return `values` as finite (n, 3) float64, or raise `ArgumentError` naming the first bad row."""
+def check_vectors(name: str, values: ArrayLike, width: int = 3) -> NDArray[np.float64]:
+    """Return `values` as finite (n, width) float64, or raise `ArgumentError` naming the first bad row."""
     try:
         array = np.ascontiguousarray(values, dtype=np.float64)
     except (TypeError, ValueError):
-        raise ArgumentError(f"{name} must be numbers of shape (n, 3)") from None
-    if array.ndim != 2 or array.shape[1] != 3:
-        raise ArgumentError(f"{name} must have shape (n, 3), not {array.shape}")
+        raise ArgumentError(f"{name} must be numbers of shape (n, {width})") from None
+    if array.ndim != 2 or array.shape[1] != width:
+        raise ArgumentError(f"{name} must have shape (n, {width}), not {array.shape}")
     check_finite(name, array)
     return array
+
+
+def check_rows(ids: ArrayLike, count: int) -> NDArray[np.int64]:
+    """Return ids of `count` photons, given as a mask or as whole numbers, or raise `ArgumentError`."""
+    given = np.asarray(ids)
+    if given.ndim != 1:
+        raise ArgumentError(f"ids or mask must have shape (n,), not {given.shape}")
+    if given.dtype == np.bool_:
+        if len(given) != count:
+            raise ArgumentError(f"the mask has {len(given)} entries, the map {count} photons")
+        return np.flatnonzero(given)
+    if given.dtype.kind not in "iu" and len(given):
+        raise ArgumentError(f"ids must be whole numbers or a mask, not {given.dtype}")
+    outside = (given < 0) | (given >= count)
+    if outside.any():
+        row = int(np.argmax(outside))
+        raise ArgumentError(f"ids[{row}] = {given[row]} is not a photon; they run from 0 to {count - 1}")
+    return given.astype(np.int64)
 
 
 def check_finite(name: str, array: NDArray[Any]) -> None:

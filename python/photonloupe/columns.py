@@ -26,6 +26,16 @@ class Column:
     of_vertices: bool = False
     low: float | None = None
     high: float | None = None
+    depth: int = 0  # rows of `depth` vectors of `width` values each
+    any_width: bool = False  # as many values a row as the map has parameters
+    may_be_nan: bool = False
+
+    @property
+    def tail(self) -> tuple[int, ...]:
+        """Shape of one row; -1 stands for any number."""
+        if self.any_width:
+            return (-1,)
+        return (*((self.depth,) if self.depth else ()), *((self.width,) if self.width else ()))
 
 
 PHOTON_COLUMNS = (
@@ -44,7 +54,18 @@ PATH_COLUMNS = (
     Column("path_scatter", "f4", of_vertices=True, low=0.0, high=1.0),
 )
 PATH_OFFSETS = Column("path_offsets", "i8")
-ALL_COLUMNS = {column.name: column for column in (*PHOTON_COLUMNS, PATH_OFFSETS, *PATH_COLUMNS)}
+# What a script, a user or relaxation adds to the photons.
+STATE_COLUMNS = (
+    Column("parameters", "f4", any_width=True, may_be_nan=True),
+    Column("constraint_basis", "f4", 3, depth=2),
+    Column("constraint_weights", "f4", 2, low=0.0, high=1.0),
+    Column("gradient", "f4", 3),
+    Column("one_sidedness", "f4", low=0.0),
+    Column("traced_positions", "f4", 3),
+    Column("drift", "f4", 3),
+    Column("pressure", "f4", low=0.0),
+)
+ALL_COLUMNS = {column.name: column for column in (*PHOTON_COLUMNS, PATH_OFFSETS, *PATH_COLUMNS, *STATE_COLUMNS)}
 PATH_NAMES = (PATH_OFFSETS.name, *(column.name for column in PATH_COLUMNS))
 REQUIRED = ("positions", "normals", "power")
 
@@ -154,6 +175,26 @@ def check_columns(given: Mapping[str, ArrayLike | None]) -> Columns:
     )
     _check_paths(columns, count)
     return columns
+
+
+def check_state(name: str, values: NDArray[Any], count: int) -> NDArray[Any]:
+    """Check a state column read from a file against the number of photons.
+
+    Raises
+    ------
+    ArgumentError
+        Naming the column, and the row where one is to blame.
+    """
+    column = ALL_COLUMNS[name]
+    if len(values) != count:
+        raise ArgumentError(f"{name} has {len(values)} rows, positions has {count}")
+    bad = np.isinf(values) if column.may_be_nan else ~np.isfinite(values)
+    _refuse_rows(name, bad, values, "is not finite")
+    if column.low is not None:
+        _refuse_rows(name, values < column.low, values, f"is below {column.low:g}")
+    if column.high is not None:
+        _refuse_rows(name, values > column.high, values, f"is above {column.high:g}")
+    return values
 
 
 def _check_paths(columns: Columns, count: int) -> None:

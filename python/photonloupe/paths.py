@@ -89,7 +89,7 @@ def find_traced_rows(columns: Mapping[str, NDArray[Any]], traced: _engine.Photon
     PhotonLoupeError
         If a photon is not found: the scene or the program changed since it was traced.
     """
-    indices, positions = columns["emitted_index"], columns["positions"]
+    indices, positions = columns["emitted_index"], columns.get("traced_positions", columns["positions"])
     order = np.argsort(traced.emitted_index, kind="stable")
     sorted_index = np.asarray(traced.emitted_index)[order]
     first = np.searchsorted(sorted_index, indices, side="left")

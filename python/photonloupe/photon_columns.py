@@ -3,13 +3,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from photonloupe.columns import Columns
 from photonloupe.errors import PhotonLoupeError
+from photonloupe.parameters import Parameter, check_parameters
 
 Float3 = NDArray[np.float32]
 
@@ -18,6 +20,10 @@ class PhotonColumns:
     """Row i of every column belongs to photon i; path columns are flat, with offsets."""
 
     _columns: Columns
+    _parameters: tuple[Parameter, ...]
+
+    def __len__(self) -> int:
+        return len(self.positions)
 
     @property
     def positions(self) -> Float3:
@@ -79,6 +85,67 @@ class PhotonColumns:
         """How diffuse each interaction was, (v,): 0 mirror-like to 1 diffuse."""
         return self._read_path_column("path_scatter")
 
+    def set_parameters(
+        self,
+        values: ArrayLike,
+        names: Sequence[str] | None = None,
+        bounds: ArrayLike | None = None,
+        periodic: Sequence[bool] | None = None,
+    ) -> None:
+        """Give every photon its place in a parameter space of your own; replaces all parameters there were.
+
+        Parameters
+        ----------
+        values
+            (n, m), m from 1 to 13, or (n,); NaN where a photon has none: it then takes no part in parameter space.
+        names
+            m names; default p3, p4 …: dimensions 0 to 2 are x, y, z.
+        bounds
+            (m, 2) lower and upper bound; default the smallest and largest value. They scale plots, and say where a
+            periodic parameter wraps; they never scale distances.
+        periodic
+            m flags; the difference of two values of a periodic parameter wraps at upper - lower.
+
+        Raises
+        ------
+        ArgumentError
+            If a shape does not fit, a value is infinite (by row and column), or a periodic parameter has no bounds.
+
+        Examples
+        --------
+        >>> import numpy as np, photonloupe as pl
+        >>> spots = {"positions": [[0, 0, 0], [1, 0, 0]], "normals": [[0, 1, 0]] * 2, "power": np.ones((2, 3))}
+        >>> photons = pl.PhotonMap.from_arrays(**spots)
+        >>> photons.set_parameters([0.1, 3.1], ["phi"], [[0.0, 3.14]], [True])
+        >>> photons.parameter_names, photons.parameters_set.tolist()
+        (('phi',), [True, True])
+        """
+        columns, parameters = check_parameters(values, len(self), names, bounds, periodic)
+        self._add_columns({"parameters": columns})
+        self._parameters = parameters
+        self._upload_parameters()
+
+    @property
+    def parameter_list(self) -> tuple[Parameter, ...]:
+        """Names, bounds and periods of the parameters."""
+        return self._parameters
+
+    @property
+    def parameter_names(self) -> tuple[str, ...]:
+        """Names of the parameters, dimensions from 3 on."""
+        return tuple(parameter.name for parameter in self._parameters)
+
+    @property
+    def parameter_bounds(self) -> NDArray[np.float32]:
+        """Lower and upper bound of each parameter, (m, 2)."""
+        rows = [(parameter.low, parameter.high) for parameter in self._parameters]
+        return np.array(rows, dtype=np.float32).reshape(-1, 2)
+
+    @property
+    def parameter_periodic(self) -> NDArray[np.bool_]:
+        """Whether each parameter wraps, (m,)."""
+        return np.array([parameter.periodic for parameter in self._parameters], dtype=bool)
+
     @property
     def parameters(self) -> NDArray[np.float32]:
         """Parameters set by a script or by `set_parameters`, (n, m); NaN where a photon has none."""
@@ -131,6 +198,9 @@ class PhotonColumns:
             self._columns[name] = view
 
     def _record_paths(self) -> None:
+        raise NotImplementedError
+
+    def _upload_parameters(self) -> None:
         raise NotImplementedError
 
     def _read_path_column(self, name: str) -> NDArray[Any]:

@@ -4,20 +4,23 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from photonloupe import _engine, exporting, queries, storage
-from photonloupe.checks import check_count
-from photonloupe.columns import PHOTON_COLUMNS, Columns, check_columns
+from photonloupe.checks import check_count, check_rows
+from photonloupe.columns import PATH_NAMES, PHOTON_COLUMNS, STATE_COLUMNS, Columns, check_columns
 from photonloupe.device import Device, open_device
 from photonloupe.errors import ArgumentError, PhotonLoupeError
+from photonloupe.nearest import find_neighbors
+from photonloupe.parameters import Parameter, describe_parameters
 from photonloupe.paths import find_traced_rows, gather_paths, match_signature, read_path_columns, trace_paths
 from photonloupe.photon_columns import Float3, PhotonColumns
 from photonloupe.progress import ProgressLike
+from photonloupe.relaxing import RelaxKeywords, relax_photons
 from photonloupe.scene import Scene, load_scene
 
 if TYPE_CHECKING:
@@ -54,6 +57,8 @@ class PhotonMap(PhotonColumns):
         scene: Scene | None = None,
         device: Device | int | str | None = None,
         native: _engine.PhotonMap | None = None,
+        parameters: Sequence[Parameter] = (),
+        relaxation: Mapping[str, Any] | None = None,
     ) -> None:
         self._columns: Columns = {}
         self._add_columns(columns)
@@ -64,6 +69,8 @@ class PhotonMap(PhotonColumns):
         self._scene = scene
         self._device = device
         self._native = native
+        self._parameters = tuple(parameters)
+        self._relaxation = dict(relaxation or {})
 
     @classmethod
     def from_arrays(
@@ -82,6 +89,7 @@ class PhotonMap(PhotonColumns):
         path_objects: ArrayLike | None = None,
         path_scatter: ArrayLike | None = None,
         emitted: int | None = None,
+        surface: Scene | None = None,
         device: Device | int | str | None = None,
     ) -> PhotonMap:
         """Make a map of your own photons.
@@ -99,6 +107,9 @@ class PhotonMap(PhotonColumns):
             interaction 1 reflected, 2 transmitted, 0 at the ends; scatter 0 mirror-like to 1 diffuse.
         emitted
             Number of photons emitted; default: the largest emitted index + 1.
+        surface
+            Scene whose objects the photons lie on, told apart by `object` (-1: any); relaxed photons return to it.
+            Without one they move in their tangent planes.
         device
             Where queries will run.
 
@@ -130,7 +141,7 @@ class PhotonMap(PhotonColumns):
         least = int(columns["emitted_index"].max(initial=0)) + 1
         emitted = least if emitted is None else check_count("emitted", emitted, least, MAX_EMITTED)
         provenance = {"version": _engine.version, "source": "arrays"}
-        return cls(columns, emitted=emitted, provenance=provenance, device=device)
+        return cls(columns, emitted=emitted, provenance=provenance, scene=surface, device=device)
 
     @property
     def emitted(self) -> int:
@@ -158,9 +169,19 @@ class PhotonMap(PhotonColumns):
         return dict(self._provenance)
 
     @property
+    def relaxation(self) -> dict[str, Any]:
+        """Settings and steps of the relaxation that made this map; empty for one that was not relaxed."""
+        return dict(self._relaxation)
+
+    @property
+    def device(self) -> Device | int | str | None:
+        """Where queries run."""
+        return self._device
+
+    @property
     def tree(self) -> dict[str, Any]:
         """The kd-tree: split_axis, split_value, first, count, box (nodes, 6), order."""
-        return dict(self._upload().tree(open_device(self._device)._native))
+        return dict(self.upload().tree(open_device(self._device)._native))
 
     def select(self, ids: ArrayLike | None = None, *, signature: str | int | None = None) -> PhotonMap:
         """Make a map of some of the photons; fluxes and the number emitted stay as they are.
@@ -187,8 +208,9 @@ class PhotonMap(PhotonColumns):
             self._record_paths()
             rows = match_signature(self._columns, signature)
         else:
-            rows = self._check_rows(np.asarray(ids))
-        columns = {column.name: self._columns[column.name][rows] for column in PHOTON_COLUMNS}
+            rows = check_rows(ids, len(self))
+        kept = [column.name for column in (*PHOTON_COLUMNS, *STATE_COLUMNS) if column.name in self._columns]
+        columns = {name: self._columns[name][rows] for name in kept}
         columns.update(gather_paths(self._columns, rows))
         return PhotonMap(
             columns,
@@ -198,21 +220,42 @@ class PhotonMap(PhotonColumns):
             provenance=self._provenance,
             scene=self._scene,
             device=self._device,
+            parameters=self._parameters,
+            relaxation=self._relaxation,
         )
 
     def neighbors(
-        self, points: ArrayLike, k: int, *, space: str = "world", progress: ProgressLike = None
+        self,
+        points: ArrayLike,
+        k: int,
+        *,
+        space: str = "world",
+        beta: float | str = 3.0,
+        center: int | None = None,
+        ranges: Mapping[int | str, tuple[float, float]] | None = None,
+        progress: ProgressLike = None,
     ) -> tuple[NDArray[np.int32], NDArray[np.float32]]:
         """Find the k nearest photons, nearest first, ties by id.
 
         Parameters
         ----------
         points
-            Points (n, 3) in m, or ids (n,) of photons; a photon is not its own neighbor.
+            Points (n, 3) in m, or ids (n,) of photons; a photon is not its own neighbor. In parameter space
+            (n, m) values, or ids.
         k
             How many, 1 to 1000.
         space
-            ``"world"``: distance in m.
+            ``"world"``: all photons, by distance in m. ``"parameter"``: photons with parameters, by distance in
+            parameter space; to an id only those of its emitter. ``"constrained"``: those of the same layer, by
+            distance in m: of the same emitter and within β r_q in parameter space, r_q the distance to the k-th
+            neighbor there (METHODS section 4). Photons without parameters are a layer of their own.
+        beta
+            β of the constrained space, or ``"auto"`` for `optimal_beta`.
+        center
+            Constrained space around points: the layer is that of this photon.
+        ranges
+            Instead: the layer is all photons whose parameters lie within, ``{name or dimension: (low, high)}``,
+            dimensions counted from 3; a periodic parameter may run from high over the seam to low.
         progress
             True for a bar, or a callback ``(stage, fraction)`` that returns False to stop.
 
@@ -221,12 +264,12 @@ class PhotonMap(PhotonColumns):
         ids : (n, k) int32
             Padded with -1 where there are fewer photons.
         distances : (n, k) float32
-            In m, padded with inf.
+            In m, or in parameter space, padded with inf.
 
         Raises
         ------
         ArgumentError
-            If a point is not finite, an id is not a photon, or k is out of range.
+            If a point is not finite, an id is not a photon, k is out of range, or the space lacks what it needs.
 
         Examples
         --------
@@ -236,8 +279,9 @@ class PhotonMap(PhotonColumns):
         >>> photons.neighbors([1], 3)[0].tolist()
         [[0, 2, -1]]
         """
-        native = self._upload()
-        return queries.find_neighbors(open_device(self._device), native, points, k, space=space, progress=progress)
+        return find_neighbors(
+            self, points, k, space=space, beta=beta, center=center, ranges=ranges, progress=progress
+        )
 
     def irradiance(
         self,
@@ -271,10 +315,92 @@ class PhotonMap(PhotonColumns):
         ArgumentError
             If a point or normal is not finite, a normal is zero, or k or kernel is not offered.
         """
-        native = self._upload()
+        native = self.upload()
         k = queries.choose_k(self._settings) if k is None else k
         device = open_device(self._device)
         return queries.estimate_irradiance(device, native, points, normals, k=k, kernel=kernel, progress=progress)
+
+    def constrain(self, *, progress: ProgressLike = None, **settings: Unpack[RelaxKeywords]) -> PhotonMap:
+        """Measure which way each photon may move, without moving any (METHODS section 5).
+
+        Parameters
+        ----------
+        **settings
+            ``constraint``, ``descriptor``, ``beta``, ``constraint_neighbors``, ``thresholds`` as in `relax`.
+        progress
+            True for a bar, or a callback ``(stage, fraction)`` that returns False to stop.
+
+        Returns
+        -------
+        PhotonMap
+            The same photons with `constraint_basis`, `constraint_weights`, `gradient`, `one_sidedness`.
+        """
+        return relax_photons(self, progress, **{**settings, "steps": 0})
+
+    def relax(
+        self,
+        steps: int | None = None,
+        neighbors: int | None = None,
+        *,
+        progress: ProgressLike = None,
+        **settings: Unpack[RelaxKeywords],
+    ) -> PhotonMap:
+        """Move the photons apart until the noise is gone, as far as their constraints allow ([SJ09], METHODS 3 to 5).
+
+        With nothing said, the settings with the least error of all measured (docs/relaxation.md).
+
+        Parameters
+        ----------
+        steps
+            S of eq. 2. It trades noise for bias: photons keep flattening gradients, they never settle.
+        neighbors
+            K of eq. 1, 1 to 998.
+        constraint
+            Which photons say where one may go: ``"world"`` all around it, ``"parameter"`` those of its layer (see
+            `neighbors`), ``"auto"`` the latter where the map has parameters.
+        descriptor
+            ``"pca"``, ``"tensor"``, ``"split"``, ``"gradient"`` (one-sidedness alone), or ``"none"``.
+        beta
+            Reach of layers, or ``"auto"`` for `optimal_beta`.
+        repel
+            Whether all photons repel, ``"world"``, or those of the same layer, ``"parameter"``.
+        over_relaxation
+            λmax and λmin of eq. 2, or one number for both.
+        limit
+            ρ of the migration limiter, eq. 5; None: no limit.
+        constraint_neighbors
+            k of the descriptor, 12 to 998; default 50, split 150.
+        thresholds
+            Value of the descriptor that leaves a photon free, and the one that fixes it across.
+        diffuse_flux
+            Let fluxes even out too; the total is kept.
+        search
+            ``"exact"`` radii, or ``"carried"``: those of the step before, corrected by the number of photons within
+            (faster; its error is in docs/relaxation.md).
+        surface
+            ``"auto"``: photons return to the surface they lie on; ``"tangent"``: they move in their tangent planes.
+        progress
+            True for a bar, or a callback ``(stage, fraction)`` that returns False to stop.
+
+        Returns
+        -------
+        PhotonMap
+            A new map with `drift`, `pressure`, the constraint, and the report in `relaxation`.
+
+        Raises
+        ------
+        ArgumentError
+            If a setting is out of its range, or parameters are asked for that the map does not have.
+
+        Examples
+        --------
+        >>> import photonloupe as pl
+        >>> photons = pl.trace_photons(pl.load_scene("scenes/ring/ring.gltf"), count=10_000, seed=1)
+        >>> relaxed = photons.relax(steps=2)
+        >>> len(relaxed) == len(photons)
+        True
+        """
+        return relax_photons(self, progress, **{**settings, "steps": steps, "neighbors": neighbors})
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the map as a Zarr v3 folder; an older map there stays until the new one is whole.
@@ -294,44 +420,68 @@ class PhotonMap(PhotonColumns):
         """Copy the photon columns into a data frame, vectors as three columns each; needs pandas."""
         return exporting.build_frame(self._columns)
 
-    def __len__(self) -> int:
-        return len(self.positions)
-
     def __repr__(self) -> str:
         flux = ", ".join(f"{value:.4g}" for value in self.total_flux)
         place = f" in {self._scene.path.name}" if self._scene else ""
         return f"<PhotonMap{place}: {len(self):,} photons of {self.emitted:,} emitted, flux ({flux}) W>"
 
     def _describe(self) -> dict[str, Any]:
-        return {
+        described: dict[str, Any] = {
             "emitted": self._emitted,
             "settings": self._settings,
             "report": self._report,
             "provenance": self._provenance,
         }
+        if self._parameters:
+            described["parameters"] = describe_parameters(self._parameters)
+        if self._relaxation:
+            described["relaxation"] = self._relaxation
+        return described
 
-    def _check_rows(self, ids: NDArray[Any]) -> NDArray[np.int64]:
-        if ids.ndim != 1:
-            raise ArgumentError(f"ids or mask must have shape (n,), not {ids.shape}")
-        if ids.dtype == np.bool_:
-            if len(ids) != len(self):
-                raise ArgumentError(f"the mask has {len(ids)} entries, the map {len(self)} photons")
-            return np.flatnonzero(ids)
-        if ids.dtype.kind not in "iu" and len(ids):
-            raise ArgumentError(f"ids must be whole numbers or a mask, not {ids.dtype}")
-        outside = (ids < 0) | (ids >= len(self))
-        if outside.any():
-            row = int(np.argmax(outside))
-            raise ArgumentError(f"ids[{row}] = {ids[row]} is not a photon; they run from 0 to {len(self) - 1}")
-        return ids.astype(np.int64)
-
-    def _upload(self) -> _engine.PhotonMap:
+    def upload(self) -> _engine.PhotonMap:
+        """Return the map on the device, uploaded the first time."""
         if self._native is None:
             columns = {column.name: np.ascontiguousarray(self._columns[column.name]) for column in PHOTON_COLUMNS}
             # What a map stores decides what a composite adds to it.
             store = str(self._settings.get("store", "caustic"))
-            self._native = _engine.photons_from_columns(open_device(self._device)._native, columns, store)
+            device = open_device(self._device)._native
+            self._native = _engine.photons_from_columns(device, columns, store)
+            self._upload_parameters()
         return self._native
+
+    def _upload_parameters(self) -> None:
+        if "parameters" in self._columns and self._native is not None:
+            values = np.ascontiguousarray(self._columns["parameters"])
+            periods = [parameter.period for parameter in self._parameters]
+            _engine.set_parameters(open_device(self._device)._native, self._native, values, periods)
+
+    def find_surface(self) -> Scene | None:
+        """Return the scene whose surfaces the photons lie on; None for a map from arrays without one."""
+        return self._find_scene() if self._scene is not None or self._settings else None
+
+    def replace_positions(
+        self, native: _engine.PhotonMap, state: Columns, relaxation: Mapping[str, Any]
+    ) -> PhotonMap:
+        """Return this map with the photons where a relaxation put them; paths keep their traced end points."""
+        columns: Columns = {column.name: np.asarray(getattr(native, column.name)) for column in PHOTON_COLUMNS}
+        kept = ("parameters", *(name for name in PATH_NAMES))
+        columns.update({name: self._columns[name] for name in kept if name in self._columns})
+        columns["traced_positions"] = self._columns.get("traced_positions", self._columns["positions"])
+        columns.update(state)
+        moved = PhotonMap(
+            columns,
+            emitted=self._emitted,
+            settings=self._settings,
+            report=self._report,
+            provenance={**self._provenance, "relaxation": relaxation["settings"]},
+            scene=self._scene,
+            device=self._device,
+            native=native,
+            parameters=self._parameters,
+            relaxation=relaxation,
+        )
+        moved._upload_parameters()
+        return moved
 
     def _find_scene(self) -> Scene:
         """Return the scene the map was traced in, loading it again if its file is unchanged."""
@@ -352,33 +502,3 @@ class PhotonMap(PhotonColumns):
         traced = trace_paths(open_device(self._device), self._find_scene(), self._settings, self._emitted)
         rows = find_traced_rows(self._columns, traced)
         self._add_columns(gather_paths(read_path_columns(traced), rows))
-
-
-def load_photons(path: str | os.PathLike[str], *, device: Device | int | str | None = None) -> PhotonMap:
-    """Read a map that `PhotonMap.save` wrote.
-
-    Parameters
-    ----------
-    path
-        The Zarr folder.
-    device
-        Where queries will run.
-
-    Returns
-    -------
-    PhotonMap
-
-    Raises
-    ------
-    FileFormatError
-        If the folder is missing, is not a photon map, or an array in it is damaged; the message names which.
-    """
-    columns, meta = storage.read_map(path)
-    return PhotonMap(
-        columns,
-        emitted=meta["emitted"],
-        settings=meta["settings"],
-        report=meta["report"],
-        provenance=meta["provenance"],
-        device=device,
-    )

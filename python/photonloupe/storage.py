@@ -15,12 +15,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from photonloupe.atomic import find_whole, make_sibling, replace_folder
-from photonloupe.columns import ALL_COLUMNS, MAX_PHOTONS, PHOTON_COLUMNS, Column, Columns, check_columns
+from photonloupe.columns import (
+    ALL_COLUMNS,
+    MAX_PHOTONS,
+    PHOTON_COLUMNS,
+    STATE_COLUMNS,
+    Column,
+    Columns,
+    check_columns,
+    check_state,
+)
 from photonloupe.errors import ArgumentError, FileFormatError
+from photonloupe.parameters import MAX_PARAMETERS
 
 FORMAT = 1
 _FORMAT_KEY = "photonloupe_format"
 _META_KEYS = {"emitted": int, "settings": dict, "report": dict, "provenance": dict}
+_OPTIONAL_META_KEYS = {"parameters": list, "relaxation": dict}
 # 131,072 rows of three floats are 1.5 MB: large enough for the disk, small enough to stream.
 CHUNK_ROWS = 1 << 17
 # A path has at most 64 bounces, so 66 vertices.
@@ -59,7 +70,7 @@ def _write_group(folder: Path, columns: Columns, meta: Mapping[str, Any]) -> Non
     import zarr  # noqa: PLC0415 - imported at first use: `import photonloupe` stays quick
     from zarr.codecs import Crc32cCodec, ZstdCodec  # noqa: PLC0415
 
-    attributes = {_FORMAT_KEY: FORMAT, **{key: meta[key] for key in _META_KEYS}}
+    attributes = {_FORMAT_KEY: FORMAT, **{key: meta[key] for key in (*_META_KEYS, *_OPTIONAL_META_KEYS) if key in meta}}
     group = zarr.create_group(store=folder, zarr_format=3, attributes=attributes, overwrite=True)
     for name, values in columns.items():
         array = group.create_array(
@@ -90,8 +101,12 @@ def read_map(path: str | os.PathLike[str]) -> tuple[Columns, dict[str, Any]]:
         if column.name not in names:
             raise FileFormatError(f"{path} lacks the array {column.name}; save the map again")
     arrays = {name: _read_array(folder / name, ALL_COLUMNS[name]) for name in names}
+    state = {column.name: arrays.pop(column.name) for column in STATE_COLUMNS if column.name in arrays}
     try:
-        return check_columns(arrays), meta
+        columns = check_columns(arrays)
+        for name, values in state.items():
+            columns[name] = check_state(name, values, len(columns["positions"]))
+        return columns, meta
     except ArgumentError as error:
         raise FileFormatError(f"{path} holds no valid photon map: {error}") from error
 
@@ -123,7 +138,10 @@ def _read_meta(folder: Path) -> dict[str, Any]:
     for key, kind in _META_KEYS.items():
         if not isinstance(attributes.get(key), kind):
             raise FileFormatError(f"{folder}/zarr.json has no valid {key}; save the map again")
-    return {key: attributes[key] for key in _META_KEYS}
+    for key, kind in _OPTIONAL_META_KEYS.items():
+        if key in attributes and not isinstance(attributes[key], kind):
+            raise FileFormatError(f"{folder}/zarr.json has no valid {key}; save the map again")
+    return {key: attributes[key] for key in (*_META_KEYS, *_OPTIONAL_META_KEYS) if key in attributes}
 
 
 def _refuse_links(folder: Path) -> None:
@@ -143,7 +161,9 @@ def _check_array(folder: Path, column: Column) -> tuple[int, ...]:
         dtype = np.dtype(document["data_type"])
     except (KeyError, TypeError, ValueError) as error:
         raise FileFormatError(f"{folder}/zarr.json is damaged; save the map again") from error
-    tail = (column.width,) if column.width else ()
+    tail = column.tail
+    if column.any_width and len(shape) == 2 and 1 <= shape[1] <= MAX_PARAMETERS:
+        tail = shape[1:]
     numbers = all(isinstance(n, int) and n >= 0 for n in (*shape, *chunks))
     limit = _MAX_VERTICES if column.of_vertices else MAX_PHOTONS + 1
     if not numbers or len(shape) != 1 + len(tail) or shape[1:] != tail or shape[0] > limit or len(chunks) != len(shape):

@@ -1,25 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The k nearest photons of each query in world space, nearest first, ties by photon id; missing ones are -1 and inf.
+// The k nearest photons of each query, nearest first, ties by photon id; missing ones are -1 and inf. Define SPACE.
 // Inputs: queries (xyz, w id of a photon to leave out), query_order (the order that visits the tree coherently).
 // Outputs: neighbor_ids, neighbor_distances (row q: query q), unanswered (1: the turns did not suffice).
 #include "shared/prelude.glsl"
 
-struct Query {
-    vec3 point;
-    uint self; // photon left out
-};
+#include "photons/query_layers.glsl"
 
-struct Candidate {
-    vec3 point;
-    uint id;
-};
-
-const uint NOBODY = 0xffffffffu;
-
-float measure_candidate(Query query, Candidate candidate);
-Candidate load_candidate(uint position);
-Candidate share_candidate(Candidate mine, uint lane);
-float measure_limit(Query query, float distance2) { return distance2; }
+float measure_limit(Query query, float distance2);
 
 #include "photons/stream_nearest.glsl"
 #pragma binding readonly vec4 queries
@@ -30,23 +17,8 @@ float measure_limit(Query query, float distance2) { return distance2; }
 
 layout(push_constant) uniform Push { NeighborQuery settings; };
 
-// Lanes without a candidate read scratch that nobody wrote: by address no descriptor would stop them.
-Candidate load_candidate(uint position) {
-    position = min(position, settings.photon_count - 1u);
-    vec4 photon = tree_positions_at(position);
-    return Candidate(photon.xyz, floatBitsToUint(photon.w));
-}
-
-Candidate share_candidate(Candidate mine, uint lane) {
-    return Candidate(vec3(subgroupBroadcast(mine.point.x, lane), subgroupBroadcast(mine.point.y, lane),
-                          subgroupBroadcast(mine.point.z, lane)), subgroupBroadcast(mine.id, lane));
-}
-
-float measure_candidate(Query query, Candidate candidate) {
-    precise vec3 d = candidate.point - query.point;
-    precise float distance = d.x * d.x + d.y * d.y + d.z * d.z;
-    return candidate.id == query.self ? INFINITY : distance;
-}
+uint get_map_size() { return settings.photon_count; }
+float measure_limit(Query query, float distance2) { return SPACE == 1 ? settings.limit2 : distance2; }
 
 // Returns the squared radius that held k, the next batch's guess.
 float write_row(uint query) {
@@ -62,6 +34,10 @@ float write_row(uint query) {
 }
 
 void main() {
+    set_period(settings.period);
+#if SPACE != 0
+    load_periods();
+#endif
     float guess2 = settings.guess2;
     uint first = gl_WorkGroupID.x * WIDTH * settings.batches;
     for (uint batch = 0u; batch < settings.batches; ++batch) {
@@ -69,7 +45,7 @@ void main() {
         bool has_query = turn < settings.count;
         uint query = query_order[settings.first + min(turn, settings.count - 1u)];
         vec4 given = queries[query];
-        my_query = Query(given.xyz, settings.exclude_self != 0u ? floatBitsToUint(given.w) : NOBODY);
+        my_query = load_query(query, given, settings.exclude_self != 0u);
         find_smallest(has_query, settings.photon_count, settings.leaf_level, settings.k, guess2);
         if (has_query) {
             turns += settings.k + 1u;

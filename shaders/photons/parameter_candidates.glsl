@@ -3,6 +3,7 @@
 // same emitter, by distance of their parameters. The tree is one over the three widest parameters, which stand in
 // tree_positions; the distance counts them all.
 // Inputs: tree_positions, tree_normals (w emitter as bits), tree_parameters.
+#define BOX_ROUNDING (1.0 - 1e-6)
 #include "photons/place.glsl"
 #include "photons/parameters.glsl"
 #pragma binding texel tree_normals
@@ -17,9 +18,6 @@ Candidate my_photon;
 Place my_widest;
 float my_limit2; // beyond every squared distance
 bool am_unset;
-
-// The box's gap and the distance add their squares in different orders.
-const float ORDER_ROUNDING = 1.0 - 1e-6;
 
 Candidate load_candidate(uint position, bool valid) {
     Candidate c;
@@ -47,7 +45,7 @@ float measure_candidate(Candidate other) {
 
 float measure_limit() { return my_limit2; }
 
-float measure_node_gap(Place lo, Place hi, uint node) { return measure_gap(lo, hi, node) * ORDER_ROUNDING; }
+float measure_node_gap(Place lo, Place hi, uint node) { return measure_gap(lo, hi, node) * BOX_ROUNDING; }
 
 // Takes the photon at a tree position as the one that gathers.
 void take_photon(uint position, vec4 widest_periods, float limit2) {

@@ -47,7 +47,7 @@ float measure_parameters(Parameters a, Parameters b) {
     for (uint i = 0u; i < PARAMETER_COUNT; ++i) {
         precise float d = a.q[i] - b.q[i];
 #ifdef PERIODIC_PARAMETERS
-        d = d - parameter_period[i] * round(d * parameter_inverse[i]);
+        d = d - parameter_period[i] * roundEven(d * parameter_inverse[i]);
 #endif
         sum = sum + d * d;
     }

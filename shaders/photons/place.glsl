@@ -20,7 +20,7 @@ const float WRAP_ROUNDING = 4e-7;
 #ifdef PERIODIC
 Place period;
 Place inverse_period; // 0 where space does not repeat
-Place wrap_offset(Place d) { return d - period * round(d * inverse_period); }
+Place wrap_offset(Place d) { return d - period * roundEven(d * inverse_period); }
 #else
 #define wrap_offset(d) (d)
 #endif
@@ -53,6 +53,11 @@ void set_period(vec4 space_period) {
         inverse_period[axis] = period[axis] > 0.0 ? 1.0 / period[axis] : 0.0;
 #endif
 }
+
+// Where boxes and photons add their squares in different orders, boxes are held for a little nearer (define it).
+#ifndef BOX_ROUNDING
+#define BOX_ROUNDING 1.0
+#endif
 
 // Squared distance between two boxes.
 float measure_box_gap(Place lo, Place hi, Place other_lo, Place other_hi) {

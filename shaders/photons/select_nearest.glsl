@@ -3,6 +3,7 @@
 // in a list in shared memory that is cut back to k whenever it has grown.
 // The kernel defines `bool measure_photon(uint position, vec4 photon, out float measure)`, never below the squared
 // distance. Inputs: tree_nodes (2 texels a node), tree_positions (xyz, w photon id).
+#include "photons/place.glsl"
 #include "photons/tree_texels.glsl"
 #include "shared/turns.glsl"
 
@@ -98,20 +99,12 @@ float cut_list(uint count, uint k) {
     return uintBitsToFloat(subgroupMax(largest));
 }
 
-float measure_box(vec3 query, uint node) {
-    vec3 lo = tree_nodes_at(2u * node).xyz;
-    vec3 hi = tree_nodes_at(2u * node + 1u).xyz;
-    precise vec3 d = max(max(lo - query, query - hi), vec3(0.0));
-    precise float distance = d.x * d.x + d.y * d.y + d.z * d.z;
-    return distance;
-}
-
 // Pushes those of the node's descendants, up to three levels down, that may hold something, farthest first.
 uint push_descendants(vec3 query, uint node, uint level, uint leaf_level, float bound, uint depth) {
     uint step = min(TREE_STEP_LEVELS, leaf_level - level);
     bool valid = LANE < (1u << step);
     uint child = (node << step) + LANE;
-    float distance = valid ? measure_box(query, child) : INFINITY;
+    float distance = valid ? measure_gap(query, query, child) * BOX_ROUNDING : INFINITY;
     valid = valid && distance <= bound;
     uint nearer = 0u; // survivors in front of this one
     for (uint other = 0u; other < TREE_FANOUT; ++other) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The k nearest photons of each query in world space, nearest first, ties by photon id; missing ones are -1 and inf.
+// The k nearest photons of each query, nearest first, ties by photon id; missing ones are -1 and inf. Define SPACE.
 // Inputs: queries (xyz, w id of a photon to leave out), query_order (the order that visits the tree coherently).
 // Outputs: neighbor_ids, neighbor_distances (row q: query q), unanswered (1: the turns did not suffice).
 #include "shared/prelude.glsl"
+#include "photons/query_layers.glsl"
 #include "photons/select_nearest.glsl"
 #pragma binding readonly vec4 queries
 #pragma binding readonly uint query_order
@@ -12,13 +13,13 @@
 
 layout(push_constant) uniform Push { NeighborQuery settings; };
 
-vec4 current_query;
+uint get_map_size() { return settings.photon_count; }
+
+Query current_query;
 
 bool measure_photon(uint position, vec4 photon, out float measure) {
-    precise vec3 d = photon.xyz - current_query.xyz;
-    precise float distance = d.x * d.x + d.y * d.y + d.z * d.z;
-    measure = distance;
-    return settings.exclude_self == 0u || floatBitsToUint(photon.w) != floatBitsToUint(current_query.w);
+    measure = measure_candidate(current_query, load_candidate(position));
+    return measure < INFINITY;
 }
 
 // Bitonic sort of list[0, count), padded to the next power of two.
@@ -47,9 +48,9 @@ void sort_list(uint count) {
 }
 
 void answer_query(uint query) {
-    current_query = queries[query];
+    current_query = load_query(query, queries[query], settings.exclude_self != 0u);
     float bound;
-    uint count = find_smallest(current_query.xyz, settings.photon_count, settings.leaf_level, settings.k, bound);
+    uint count = find_smallest(current_query.point, settings.photon_count, settings.leaf_level, settings.k, bound);
     sort_list(count);
     turns += settings.k / WIDTH + 1u;
     if (LANE == 0u) unanswered[query] = uint(!has_turns_left());
@@ -62,6 +63,10 @@ void answer_query(uint query) {
 }
 
 void main() {
+    set_period(settings.period);
+#if SPACE != 0
+    load_periods();
+#endif
     for (uint i = 0u; i < settings.batches; ++i) {
         uint at = gl_WorkGroupID.x * settings.batches + i;
         if (at >= settings.count) return;

@@ -13,6 +13,7 @@
 
 // Enough for a typical query's photons; more would be streamed before the first cut could tell that they are too far.
 #define LEAF_LIST_SIZE 24u
+#include "photons/place.glsl"
 #include "photons/walk_tree.glsl"
 // A search that kept fewer than k tries a radius with this much more area than its count asks for.
 const float GUESS_SLACK = 1.4;
@@ -30,12 +31,6 @@ struct Search {
 Query my_query;
 Search my_search;
 
-float measure_box(vec3 point, vec3 lo, vec3 hi) {
-    precise vec3 d = max(max(lo - point, point - hi), vec3(0.0));
-    precise float distance = d.x * d.x + d.y * d.y + d.z * d.z;
-    return distance;
-}
-
 uint locate_candidate(uint index) { return (gl_WorkGroupID.x * CAPACITY + index) * WIDTH + LANE; }
 
 // Squared distance from a node's box to the nearest query that reaches it; INFINITY when none does.
@@ -44,8 +39,9 @@ float measure_node(uint node) {
     vec3 hi = tree_nodes_at(2u * node + 1u).xyz;
     float nearest = INFINITY;
     for (uint base = 0u; base < WIDTH; base += 8u) {
-#define REACH(j) { float distance = measure_box(vec3(subgroupBroadcast(my_query.point.x, base + j), \
-            subgroupBroadcast(my_query.point.y, base + j), subgroupBroadcast(my_query.point.z, base + j)), lo, hi); \
+#define REACH(j) { vec3 point = vec3(subgroupBroadcast(my_query.point.x, base + j), \
+            subgroupBroadcast(my_query.point.y, base + j), subgroupBroadcast(my_query.point.z, base + j)); \
+        float distance = measure_box_gap(point, point, lo, hi) * BOX_ROUNDING; \
         nearest = distance <= subgroupBroadcast(my_search.reach, base + j) ? min(nearest, distance) : nearest; }
         REACH(0u) REACH(1u) REACH(2u) REACH(3u) REACH(4u) REACH(5u) REACH(6u) REACH(7u)
     }

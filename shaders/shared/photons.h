@@ -50,10 +50,17 @@ struct NeighborQuery {
     uint exclude_self; // the query's w holds the id of a photon that is not its own neighbour
     float flatness;    // irradiance: largest height above the tangent plane, as a share of r; 0: no test
     float guess2;      // squared radius that the first query of a workgroup tries
+    float limit2;      // parameter space: beyond every squared distance
     uint pad0;
     uint pad1;
-    uint pad2;
+    vec4 period;       // of the tree's axes, 0: none; w unused
 };
+
+// Where neighbours are sought, and among whom.
+const uint SPACE_WORLD = 0u;
+const uint SPACE_PARAMETER = 1u;
+const uint SPACE_CONSTRAINED = 2u;
+const uint ANY_EMITTER = 0xffffffffu;
 
 // Photons of a map, a tile after the other in tree order, gather from each other (photons/gather.glsl).
 struct GatherSettings {

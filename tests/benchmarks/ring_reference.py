@@ -7,6 +7,7 @@ import sys
 from dataclasses import dataclass, fields
 from functools import lru_cache
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 from caustic_truth import RED, bin_photons, find_cache, load_truth
@@ -18,10 +19,11 @@ import photonloupe as pl
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "python"))
 
-from oracles import MirrorCylinder  # noqa: E402 - found through the line above
+from oracles import MirrorCylinder
 
 Doubles = NDArray[np.float64]
 Mask = NDArray[np.bool_]
+Kind = TypeVar("Kind", np.bool_, np.float64)
 
 CELL_SIDE = 2.0 * RING.window_half / WINDOW_CELLS  # m
 # METHODS section 7, figures of merit, in cells.
@@ -53,7 +55,7 @@ def average_errors(errors: list[Errors]) -> Errors:
     return Errors(*(float(np.mean([getattr(each, field.name) for each in errors])) for field in fields(Errors)))
 
 
-def spread(values: NDArray[np.generic], reach: int, pick: np.ufunc = np.maximum) -> NDArray[np.generic]:
+def spread(values: NDArray[Kind], reach: int, pick: np.ufunc = np.maximum) -> NDArray[Kind]:
     """Greatest (or by `pick`) value within `reach` cells along both axes."""
     for axis in (0, 1):
         pads = [(reach, reach) if each == axis else (0, 0) for each in (0, 1)]
@@ -68,10 +70,10 @@ class Reference:
     def __init__(self, cells: Doubles, noise: float) -> None:
         self.cells, self.noise = cells.reshape(WINDOW_CELLS, WINDOW_CELLS), noise
         self.mean = float(cells.mean())
-        self.lit: Mask = self.cells > LIT * self.mean
-        self.edge, self.smooth = self._find_edge(), np.zeros_like(self.lit)
-        self.smooth = self.lit & ~spread(self.edge, SMOOTH_MARGIN)
-        self.near: Mask = spread(self.lit, HALO_MARGIN)
+        lit = self.cells > LIT * self.mean
+        self.edge: Mask = self._find_edge()
+        self.smooth: Mask = lit & ~spread(self.edge, SMOOTH_MARGIN)
+        self.near: Mask = spread(lit, HALO_MARGIN)
 
     def _find_edge(self) -> Mask:
         """Cells near the caustic's curve, and where the rims cut the light."""

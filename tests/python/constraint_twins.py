@@ -261,6 +261,6 @@ def optimal_beta(photons: Photons, k: int = 100, clip: float = 0.05) -> Beta:
         apart = measure_parameters(photons.parameters[ids], photons.parameters[i], photons.periods)
         members = choose_members(ids, apart**2, k)
         if members.places > 0:
-            isotropy[i] = compute_isotropy(compute_moments(photons, i, members).covariance)
+            isotropy[i] = compute_isotropy(compute_moments(photons, int(i), members).covariance)
     clipped = float(np.nanquantile(isotropy, clip))
     return Beta(float(np.sqrt(1.0 / clipped)), clipped, isotropy)

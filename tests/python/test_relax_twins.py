@@ -8,6 +8,7 @@ import pytest
 from numpy.typing import NDArray
 
 from constraint_twins import constrain, find_isotropy_ramp, optimal_beta
+from parameter_twins import find_constrained_neighbors, find_locked_neighbors, find_parameter_neighbors
 from relax_twins import (
     Photons,
     Settings,
@@ -115,6 +116,19 @@ def test_parameters_repeat_and_keep_emitters_and_unset_photons_apart() -> None:
     photons = make_photons(scatter_open(6, 4).positions, parameters=values, emitter=emitter, periods=periods)
     members = find_members(photons, 1, space="parameter", beta=1.0)
     assert [list(each.ids) for each in members] == [[1], [0], members[2].ids.tolist(), [5], [], [3]]
+
+
+def test_a_range_that_spans_everything_leaves_the_world_neighbors() -> None:
+    photons = scatter_open(60, 10, parameters=np.random.default_rng(11).random((60, 2)))
+    world, _ = find_locked_neighbors(photons, photons.positions, 6, ranges={})
+    wide, _ = find_constrained_neighbors(photons, range(60), 5, beta=1e6)
+    np.testing.assert_array_equal(world[:, 1:], wide)
+    _, near = find_parameter_neighbors(photons, range(60), 5)
+    radii = find_parameter_radius(photons.parameters, photons.is_set, photons.emitter, 5, photons.periods)
+    np.testing.assert_array_equal(near[:, -1], radii)
+    # At β = 1 the range holds exactly the k nearest in parameter space.
+    ids, _ = find_constrained_neighbors(photons, range(60), 5, beta=1.0)
+    np.testing.assert_array_equal(np.sort(ids), np.sort(find_parameter_neighbors(photons, range(60), 5)[0]))
 
 
 def test_uniform_points_have_the_isotropy_and_the_noise_of_the_methods() -> None:

@@ -1,0 +1,288 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Photon relaxation: constraints that say which way photons may move, and the steps that move them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, TypedDict, Unpack
+
+import numpy as np
+
+from photonloupe import _engine
+from photonloupe.checks import check_choice, check_count, check_number
+from photonloupe.device import open_device
+from photonloupe.errors import ArgumentError
+from photonloupe.isotropy import optimal_beta
+from photonloupe.progress import ProgressLike, follow_progress
+
+if TYPE_CHECKING:
+    from photonloupe.photons import PhotonMap
+
+SPACES = ("world", "parameter")
+DESCRIPTORS = ("none", "gradient", "pca", "tensor", "split")
+SEARCHES = ("exact", "carried")
+SURFACES = ("auto", "tangent")
+
+MAX_STEPS = 10_000
+MAX_NEIGHBORS = 998  # the one after them gives the radius, and the photon itself counts: 1000 in all
+# Fewer photons say nothing about a neighborhood (METHODS section 5.2).
+FEWEST_CONSTRAINT_NEIGHBORS = 12
+CONSTRAINT_NEIGHBORS = {"split": 150}
+DEFAULT_CONSTRAINT_NEIGHBORS = 50
+# Axis ratio t that 5 % of uniform points stay below, for k = 20, 50, 100, 250: 1 - c/√k with these c (METHODS 5.2).
+_ISOTROPY_K = (20.0, 50.0, 100.0, 250.0)
+_ISOTROPY_C = (1.744, 1.768, 1.8, 1.897)
+_ISOTROPY_MARGIN = 0.05
+_ISOTROPY_SPAN = 0.3
+# Largest eigenvalue over that of noise; homogeneity of spacings (METHODS 5.3, 5.4).
+TENSOR_THRESHOLDS = (2.0, 6.0)
+SPLIT_THRESHOLDS = (0.35, 0.2)
+# Edge of one-sidedness, fixed in the kernel (METHODS 5.2).
+GRADIENT_THRESHOLDS = (0.35, 0.8)
+MAX_BETA = 1e18
+
+
+def find_pca_thresholds(k: int) -> tuple[float, float]:
+    """Axis ratios t that leave a photon free and that fix it, for k neighbors (METHODS section 5.2)."""
+    c = float(np.interp(math.log(k), np.log(_ISOTROPY_K), _ISOTROPY_C))
+    free_at = 1.0 - c / math.sqrt(k) + _ISOTROPY_MARGIN
+    return free_at, free_at - _ISOTROPY_SPAN
+
+
+def find_thresholds(descriptor: str, k: int) -> tuple[float, float]:
+    """Values of a descriptor that leave a photon free and that fix it."""
+    if descriptor == "pca":
+        return find_pca_thresholds(k)
+    return {"tensor": TENSOR_THRESHOLDS, "split": SPLIT_THRESHOLDS}.get(descriptor, GRADIENT_THRESHOLDS)
+
+
+def check_beta(value: Any, photons: PhotonMap, progress: ProgressLike = None) -> float:
+    """Return β as a number, found from the map when it is ``"auto"``."""
+    if isinstance(value, str):
+        check_choice("beta", value, ("auto",))
+        return float(optimal_beta(photons, progress=progress))
+    return check_number("beta", value, 0.0, MAX_BETA)
+
+
+class RelaxKeywords(TypedDict, total=False):
+    """What `PhotonMap.relax` and `Relaxation` can be told; `PhotonMap.relax` says what each means."""
+
+    steps: int | None
+    neighbors: int | None
+    constraint: str
+    descriptor: str | None
+    beta: float | str | None
+    repel: str
+    over_relaxation: Sequence[float] | float | None
+    limit: float | None
+    constraint_neighbors: int | None
+    thresholds: Sequence[float] | None
+    diffuse_flux: bool
+    search: str
+    surface: str
+    period: Sequence[float] | None
+
+
+def check_settings(
+    photons: PhotonMap,
+    progress: ProgressLike,
+    *,
+    steps: int | None = None,
+    neighbors: int | None = None,
+    constraint: str = "auto",
+    descriptor: str | None = None,
+    beta: float | str | None = None,
+    repel: str = "world",
+    over_relaxation: Sequence[float] | float | None = None,
+    limit: float | None = 0.3,
+    constraint_neighbors: int | None = None,
+    thresholds: Sequence[float] | None = None,
+    diffuse_flux: bool = False,
+    search: str = "exact",
+    surface: str = "auto",
+    period: Sequence[float] | None = None,
+) -> dict[str, Any]:
+    """Check all of a relaxation's settings and fill in those that nothing was said of; see `PhotonMap.relax`."""
+    has_parameters = "parameters" in photons.recorded
+    check_choice("constraint", constraint, ("auto", *SPACES))
+    space = ("parameter" if has_parameters else "world") if constraint == "auto" else constraint
+    check_choice("repel", repel, SPACES)
+    for name, value in (("constraint", space), ("repel", repel)):
+        if value == "parameter" and not has_parameters:
+            raise ArgumentError(f'{name}="parameter" needs parameters; set_parameters() or a script sets them')
+    best = find_best(str(photons.settings.get("emission", "random")), space)
+    descriptor = check_choice("descriptor", best["descriptor"] if descriptor is None else descriptor, DESCRIPTORS)
+    k = CONSTRAINT_NEIGHBORS.get(descriptor, DEFAULT_CONSTRAINT_NEIGHBORS)
+    k = check_count(
+        "constraint_neighbors",
+        k if constraint_neighbors is None else constraint_neighbors,
+        FEWEST_CONSTRAINT_NEIGHBORS,
+        MAX_NEIGHBORS,
+    )
+    needs_beta = "parameter" in (repel, space if descriptor != "none" else "world")
+    beta = best["beta"] if beta is None else beta
+    return {
+        "steps": check_count("steps", best["steps"] if steps is None else steps, 0, MAX_STEPS),
+        "neighbors": check_count("neighbors", best["neighbors"] if neighbors is None else neighbors, 1, MAX_NEIGHBORS),
+        "constraint": space,
+        "descriptor": descriptor,
+        "beta": check_beta(beta, photons, progress) if needs_beta else 0.0,
+        "repel": repel,
+        "over_relaxation": _check_over_relaxation(
+            best["over_relaxation"] if over_relaxation is None else over_relaxation
+        ),
+        "limit": 0.0 if limit is None else check_number("limit", limit, 1e-6, 1e6),
+        "constraint_neighbors": k,
+        "thresholds": _check_thresholds(find_thresholds(descriptor, k) if thresholds is None else thresholds),
+        "diffuse_flux": bool(diffuse_flux),
+        "search": check_choice("search", search, SEARCHES),
+        "surface": check_choice("surface", surface, SURFACES),
+        "period": _check_period(period),
+    }
+
+
+def find_best(emission: str, space: str) -> dict[str, Any]:
+    """Settings with the least error of all tried on the ring (docs/relaxation.md)."""
+    is_sobol = emission == "sobol"
+    if space == "parameter":
+        return {
+            "steps": 5 if is_sobol else 20,
+            "neighbors": 20,
+            "over_relaxation": (1.0, 1.0),
+            "descriptor": "tensor",
+            "beta": 10.0,
+        }
+    return {
+        "steps": 5 if is_sobol else 20,
+        "neighbors": 20,
+        "over_relaxation": (1.0, 1.0),
+        "descriptor": "pca" if is_sobol else "tensor",
+        "beta": 10.0,
+    }
+
+
+def _check_over_relaxation(value: Sequence[float] | float) -> tuple[float, float]:
+    pair = (value, value) if isinstance(value, int | float) else tuple(value)
+    if len(pair) != 2:
+        raise ArgumentError(f"over_relaxation must be one number, or the first and the last: {value!r}")
+    first, last = (check_number("over_relaxation", entry, 1e-3, 1e3) for entry in pair)
+    return first, last
+
+
+def _check_thresholds(value: Sequence[float]) -> tuple[float, float]:
+    pair = tuple(value)
+    if len(pair) != 2:
+        raise ArgumentError(f"thresholds must be the value that leaves free and the one that fixes, not {value!r}")
+    free_at, fixed_at = (check_number("thresholds", entry, -1e30, 1e30) for entry in pair)
+    if free_at == fixed_at:
+        raise ArgumentError(f"thresholds are both {free_at:g}; between them the weight rises from 0 to 1")
+    return free_at, fixed_at
+
+
+def _check_period(value: Sequence[float] | None) -> tuple[float, float, float]:
+    if value is None:
+        return 0.0, 0.0, 0.0
+    if len(tuple(value)) != 3:
+        raise ArgumentError(f"period must be three lengths in m, 0 where space does not repeat, not {value!r}")
+    x, y, z = (check_number("period", entry, 0.0, 1e30) for entry in value)
+    return x, y, z
+
+
+class Relaxation:
+    """A relaxation that is stepped by hand.
+
+    Making one measures the constraint; `step` moves the photons once. Keywords are those of `PhotonMap.relax`.
+
+    Parameters
+    ----------
+    photons
+        The map to relax; it stays as it is.
+
+    Examples
+    --------
+    >>> import numpy as np, photonloupe as pl
+    >>> spots = np.random.default_rng(0).random((500, 3)) * [1, 0, 1]
+    >>> photons = pl.PhotonMap.from_arrays(positions=spots, normals=[[0, 1, 0]] * 500, power=np.ones((500, 3)))
+    >>> relaxation = pl.Relaxation(photons, steps=3, descriptor="none")
+    >>> relaxation.step()["step"], relaxation.step()["step"], relaxation.step_count
+    (0, 1, 2)
+    >>> len(relaxation.photons)
+    500
+    """
+
+    def __init__(
+        self, photons: PhotonMap, *, progress: ProgressLike = None, **settings: Unpack[RelaxKeywords]
+    ) -> None:
+        self._source = photons
+        self._settings = check_settings(photons, progress, **settings)
+        self._rows: list[dict[str, Any]] = []
+        self._device = open_device(photons.device)
+        self._scene = photons.find_surface() if self._settings["surface"] == "auto" else None
+        native_scene = None if self._scene is None else self._scene._native
+        native_settings = {**self._settings, "over_relaxation": list(self._settings["over_relaxation"])}
+        native_settings["thresholds"] = list(self._settings["thresholds"])
+        native_settings["period"] = list(self._settings["period"])
+        # The engine divides by the number of steps, even where none is made.
+        native_settings["steps"] = max(self._settings["steps"], 1)
+        with follow_progress(progress) as callback:
+            self._native = _engine.start_relaxation(
+                self._device._native, photons.upload(), native_scene, native_settings, callback
+            )
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """All settings, those that nothing was said of filled in."""
+        return dict(self._settings)
+
+    @property
+    def steps(self) -> int:
+        """Number of steps the relaxation was planned for; over-relaxation fades over them."""
+        return int(self._settings["steps"])
+
+    @property
+    def step_count(self) -> int:
+        """Number of steps made."""
+        return len(self._rows)
+
+    def step(self, *, progress: ProgressLike = None) -> dict[str, Any]:
+        """Move all photons once.
+
+        Returns
+        -------
+        dict
+            ``step`` from 0, ``tau`` (METHODS eq. 2), ``mean_move`` and ``largest_move`` (|move|/r), ``mean_pressure``
+            (|f'|/r), ``mean_displacement`` (m), ``flux_drift`` (relative, before the total was restored).
+        """
+        with follow_progress(progress) as callback:
+            row = dict(self._native.step(callback))
+        self._rows.append(row)
+        return row
+
+    @property
+    def report(self) -> dict[str, Any]:
+        """Settings, one row per step, and where photons move: on their surface, or in tangent planes."""
+        return self._describe(self._native.read()[2])
+
+    @property
+    def photons(self) -> PhotonMap:
+        """The map as it is now, with constraint, drift and pressure."""
+        native, state, off_surface = self._native.read()
+        columns = {name: np.asarray(values) for name, values in state.items()}
+        return self._source.replace_positions(native, columns, self._describe(off_surface))
+
+    def _describe(self, off_surface: int) -> dict[str, Any]:
+        return {
+            "settings": dict(self._settings),
+            "steps": [dict(row) for row in self._rows],
+            "surface": "tangent planes" if self._scene is None else str(self._scene.path),
+            "off_surface": int(len(self._source) if self._scene is None else off_surface),
+        }
+
+
+def relax_photons(photons: PhotonMap, progress: ProgressLike, **settings: Unpack[RelaxKeywords]) -> PhotonMap:
+    """Run a whole relaxation; see `PhotonMap.relax`."""
+    relaxation = Relaxation(photons, progress=progress, **settings)
+    for _ in range(relaxation.steps):
+        relaxation.step(progress=progress)
+    return relaxation.photons
