@@ -248,14 +248,17 @@ void gather_members(bool has_query, uint photon_count, uint leaf_level, uint k, 
     float limit = measure_limit();
     float reach = min(FIRST_FILL * float(SHELL_SIZE) / float(wanted), 0.6);
     my_search = Search(has_query, guess2 * (1.0 - reach), guess2 * (1.0 + reach), -1.0, INFINITY, 0u, 0u, 0u, 0u, 0u, 0u);
-    uint rank = wanted;
+    uint rank = wanted; // fewer photons than wanted: the farthest's
     uint pass = 0u;
     map_size = photon_count;
     clear_sums();
     do {
         run_pass(my_search.searching, photon_count, leaf_level, limit);
-        bool covers = my_search.hi >= limit;
-        rank = my_search.searching ? (covers ? min(wanted, my_search.hi_count) : wanted) : rank;
+        if (my_search.searching && my_search.hi >= limit && my_search.hi_count < rank) {
+            rank = my_search.hi_count;
+            my_search.below = -1.0;
+            my_search.below_count = 0u;
+        }
         bool within = my_search.lo_count < rank && rank <= my_search.hi_count;
         // Nothing lies between neighboring floats: more than a shell of photons tie.
         bool is_narrow = floatBitsToUint(my_search.hi) - floatBitsToUint(max(my_search.lo, 0.0)) <= 1u;
