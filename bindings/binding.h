@@ -94,6 +94,7 @@ void bind_device(nb::module_& module);
 void bind_scene(nb::module_& module);
 void bind_trace(nb::module_& module);
 void bind_photons(nb::module_& module);
+void bind_relax(nb::module_& module);
 void bind_estimate(nb::module_& module);
 void bind_image(nb::module_& module);
 
