@@ -44,14 +44,14 @@ def check_choice(name: str, value: Any, choices: Iterable[str]) -> str:
     return str(value)
 
 
-def check_vectors(name: str, values: ArrayLike) -> NDArray[np.float64]:
-    """Return `values` as finite (n, 3) float64, or raise `ArgumentError` naming the first bad row."""
+def check_vectors(name: str, values: ArrayLike, width: int = 3) -> NDArray[np.float64]:
+    """Return `values` as finite (n, `width`) float64, or raise `ArgumentError` naming the first bad row."""
     try:
         array = np.ascontiguousarray(values, dtype=np.float64)
     except (TypeError, ValueError):
-        raise ArgumentError(f"{name} must be numbers of shape (n, 3)") from None
-    if array.ndim != 2 or array.shape[1] != 3:
-        raise ArgumentError(f"{name} must have shape (n, 3), not {array.shape}")
+        raise ArgumentError(f"{name} must be numbers of shape (n, {width})") from None
+    if array.ndim != 2 or array.shape[1] != width:
+        raise ArgumentError(f"{name} must have shape (n, {width}), not {array.shape}")
     check_finite(name, array)
     return array
 
