@@ -12,6 +12,7 @@ Examples
 """
 
 from photonloupe._engine import version as __version__
+from photonloupe.blue_noise import BlueNoise, measure_blue_noise
 from photonloupe.device import Device, devices
 from photonloupe.errors import (
     ArgumentError,
@@ -35,6 +36,7 @@ from photonloupe.tracing import trace_photons
 
 __all__ = [
     "ArgumentError",
+    "BlueNoise",
     "Cancelled",
     "Device",
     "DeviceError",
@@ -56,6 +58,7 @@ __all__ = [
     "load_image",
     "load_photons",
     "load_scene",
+    "measure_blue_noise",
     "optimal_beta",
     "render",
     "trace_photons",

@@ -2,7 +2,7 @@
 Photon Loupe's engine: tracing, photon maps, estimation on Vulkan compute.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Annotated
 
 import numpy
@@ -137,6 +137,11 @@ def find_neighbors(device: Device, photons: PhotonMap, points: Annotated[NDArray
 def trace_photons(device: Device, scene: Scene, settings: dict, progress: object | None = None) -> PhotonMap:
     """
     Trace photons; settings: count, emitted, seed, emission, store, max_bounces, paths.
+    """
+
+def measure_spectrum(device: Device, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', writable=False)], radius: Sequence[float], progress: object | None = None) -> tuple:
+    """
+    Frequencies (m, 2) of a half plane up to `radius` cycles over the sides, and the power (m,) of points (n, 2) in sides.
     """
 
 def estimate_irradiance(device: Device, photons: PhotonMap, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', writable=False)], normals: Annotated[NDArray[numpy.float32], dict(shape=(None, 3), order='C', writable=False)], k: int, kernel: str, progress: object | None = None) -> NDArray[numpy.float32]:

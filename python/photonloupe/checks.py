@@ -45,7 +45,7 @@ def check_choice(name: str, value: Any, choices: Iterable[str]) -> str:
 
 
 def check_vectors(name: str, values: ArrayLike, width: int = 3) -> NDArray[np.float64]:
-    """Return `values` as finite (n, width) float64, or raise `ArgumentError` naming the first bad row."""
+    """Return `values` as finite (n, `width`) float64, or raise `ArgumentError` naming the first bad row."""
     try:
         array = np.ascontiguousarray(values, dtype=np.float64)
     except (TypeError, ValueError):

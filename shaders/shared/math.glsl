@@ -1,21 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 // Our own elementary functions, because drivers' are off by up to 4e-4: each states its error, which the tests measure.
 
-// The classic pair of polynomials on [-π/4, π/4] (Cephes sinf/cosf), after a three-part Cody-Waite reduction.
-// Error below 2 ulp of 1 for |x| ≤ 8192.
+// The classic pair of polynomials on [-π/4, π/4] (Cephes sinf/cosf): error below 1 ulp of 1.
+void sin_cos_core(float x, out float s, out float c) {
+    precise float z = x * x;
+    precise float sine = ((-1.9515295891e-4 * z + 8.3321608736e-3) * z - 1.6666654611e-1) * z * x + x;
+    precise float cosine = ((2.443315711809948e-5 * z - 1.388731625493765e-3) * z + 4.166664568298827e-2) * z * z - 0.5 * z + 1.0;
+    s = sine;
+    c = cosine;
+}
+
+// After a three-part Cody-Waite reduction. Error below 2 ulp of 1 for |x| ≤ 8192.
 void sin_cos(float x, out float s, out float c) {
     precise float n = round(x * 0.63661977236758134308);
     precise float r = x - n * 1.5703125;
     r = r - n * 4.837512969970703125e-4;
     r = r - n * 7.54978995489188216e-8;
-    precise float z = r * r;
-    precise float sine = ((-1.9515295891e-4 * z + 8.3321608736e-3) * z - 1.6666654611e-1) * z * r + r;
-    precise float cosine = ((2.443315711809948e-5 * z - 1.388731625493765e-3) * z + 4.166664568298827e-2) * z * z - 0.5 * z + 1.0;
+    float sine, cosine;
+    sin_cos_core(r, sine, cosine);
     uint quadrant = uint(int(n)) & 3u;
     s = (quadrant & 1u) == 0u ? sine : cosine;
     c = (quadrant & 1u) == 0u ? cosine : sine;
     if (quadrant == 1u || quadrant == 2u) c = -c;
     if (quadrant >= 2u) s = -s;
+}
+
+// Sine and cosine of a turn given as a 32-bit fraction: nothing is lost in the reduction, and turned by quarters the
+// results turn exactly. Error below 1 ulp of 1.
+void sin_cos_turn(uint turn, out float s, out float c) {
+    uint shifted = turn + 0x20000000u; // quadrants from -π/4 on
+    float sine, cosine;
+    sin_cos_core(float(int(shifted & 0x3fffffffu) - 0x20000000) * (2.0 * PI / 4294967296.0), sine, cosine);
+    bool is_odd = (shifted & 0x40000000u) != 0u;
+    s = uintBitsToFloat(floatBitsToUint(is_odd ? cosine : sine) ^ (shifted & 0x80000000u));
+    c = uintBitsToFloat(floatBitsToUint(is_odd ? sine : cosine) ^ ((shifted + 0x40000000u) & 0x80000000u));
 }
 
 // asin on [0, 0.5] (Cephes asinf): error below 2 ulp.

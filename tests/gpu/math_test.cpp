@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The elementary functions of shaders/shared/math.glsl against double precision: the errors its comments state.
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <random>
 
 #include <glm/geometric.hpp>
@@ -17,7 +20,7 @@
 namespace photonloupe::test {
 namespace {
 
-enum Function { SIN_COS, ASIN_CORE, ACOS_EXACT, EXP_EXACT, NORMALIZE_SAFELY };
+enum Function { SIN_COS, ASIN_CORE, ACOS_EXACT, EXP_EXACT, NORMALIZE_SAFELY, SIN_COS_TURN };
 
 constexpr float INF = std::numeric_limits<float>::infinity();
 constexpr float QUIET_NAN = std::numeric_limits<float>::quiet_NaN();
@@ -104,6 +107,40 @@ TEST(Math, sine_of_the_smallest_numbers_is_exact) {
 TEST(Math, sine_of_what_is_not_finite_is_nan) {
     for (float x : {INF, -INF, QUIET_NAN})
         EXPECT_TRUE(std::isnan(evaluate_one(SIN_COS, x))) << x;
+}
+
+// Turns as 32-bit fractions: evenly spaced, and all near the eighths.
+std::vector<std::uint32_t> sample_turns() {
+    std::vector<std::uint32_t> turns;
+    for (std::uint32_t i = 0; i < DENSE; ++i)
+        turns.push_back(i * 16411u * 1021u);
+    for (std::uint32_t eighth = 0; eighth < 8; ++eighth)
+        for (std::uint32_t near = 0; near < 512; ++near)
+            turns.push_back((eighth << 29) + near - 256u);
+    return turns;
+}
+
+TEST(Math, sine_and_cosine_of_a_turn_are_within_one_ulp_of_one) {
+    const std::vector<std::uint32_t> turns = sample_turns();
+    std::vector<glm::vec4> inputs;
+    for (const std::uint32_t turn : turns)
+        inputs.emplace_back(std::bit_cast<float>(turn), 0, 0, 0);
+    const std::vector<glm::vec4> outputs = evaluate(SIN_COS_TURN, inputs);
+    double worst = 0;
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        const double angle = 2 * std::numbers::pi * turns[i] / 4294967296.0;
+        worst = std::max({worst, std::abs(outputs[i].x - std::sin(angle)), std::abs(outputs[i].y - std::cos(angle))});
+    }
+    EXPECT_LT(worst, ULP_OF_ONE);
+}
+
+TEST(Math, quarter_turns_are_exact) {
+    constexpr std::array SINES{0.0f, 1.0f, 0.0f, -1.0f, 0.0f};
+    for (std::uint32_t quarter = 0; quarter < 4; ++quarter) {
+        const glm::vec4 found = evaluate(SIN_COS_TURN, {glm::vec4(std::bit_cast<float>(quarter << 30))})[0];
+        EXPECT_EQ(found.x, SINES[quarter]);
+        EXPECT_EQ(found.y, SINES[quarter + 1]);
+    }
 }
 
 TEST(Math, core_of_asin_is_within_two_ulp) {

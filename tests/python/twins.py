@@ -78,3 +78,11 @@ def estimate_irradiance(
         radius = effective[order[k]] if len(order) > k else effective[chosen[-1]] * PAST_THE_FARTHEST
         result[row] = (weigh(kernel, away[chosen] / radius) @ flux) / (np.pi * radius**2)
     return result
+
+
+def measure_power(points: Doubles, frequencies: NDArray[np.int32]) -> Doubles:
+    """Power of points in [0, 1]² at whole frequencies: the sum of their waves, squared, over their number."""
+    power = np.empty(len(frequencies))
+    for row, frequency in enumerate(frequencies):
+        power[row] = abs(np.exp(-2j * np.pi * np.mod(points @ frequency, 1.0)).sum()) ** 2 / len(points)
+    return power

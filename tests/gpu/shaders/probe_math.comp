@@ -17,6 +17,8 @@ vec4 evaluate(vec4 v) {
     result.x = acos_exact(v.x);
 #elif FUNCTION == 3
     result.x = exp_exact(v.x);
+#elif FUNCTION == 5
+    sin_cos_turn(floatBitsToUint(v.x), result.x, result.y);
 #else
     result.xyz = normalize_safely(v.xyz);
 #endif
