@@ -79,30 +79,49 @@ shared::GatherSettings make_gather_settings(const KdTree& tree, const GatherShap
     return settings;
 }
 
+namespace {
+
+// Runs the kernel over all photons, `per_group` a workgroup of one subgroup; false if some were left unanswered.
+bool try_gather(gpu::Device& device, const KdTree& tree, const gpu::KernelSource& kernel,
+                shared::GatherSettings settings, std::uint64_t per_group, const std::string& stage,
+                const GatherDispatch& dispatch, const Progress& progress) {
+    const std::uint32_t width = device.limits().subgroup_size;
+    const gpu::Buffer unanswered = gpu::make_buffer(device, std::vector<std::uint32_t>{0}, "unanswered");
+    gpu::run_in_chunks(
+        device, stage, tree.count, per_group, progress,
+        [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
+            settings.first = static_cast<std::uint32_t>(first);
+            settings.count = static_cast<std::uint32_t>(count);
+            dispatch(commands, kernel, settings, unanswered, (count + per_group - 1) / per_group * width);
+        },
+        per_group * device.limits().max_group_count);
+    return unanswered.read<std::uint32_t>(1)[0] == 0;
+}
+
+[[noreturn]] void refuse_crowd(const std::string& stage) {
+    throw Error(stage + ": some photons reach more of the map than one workgroup can look through; are very many "
+                        "photons in one place, or of one layer spread over all of a large map?");
+}
+
+} // namespace
+
 void run_gather(gpu::Device& device, const KdTree& tree, const std::string& kernel,
                 const std::vector<std::string>& defines, shared::GatherSettings settings, const std::string& stage,
                 const GatherDispatch& dispatch, const Progress& progress) {
-    if (tree.count == 0)
-        return;
-    const std::uint32_t width = device.limits().subgroup_size;
     for (const std::uint32_t batches : {BATCHES, 1u}) { // fewer photons share a workgroup's loop turns the second time
-        const gpu::Buffer unanswered = gpu::make_buffer(device, std::vector<std::uint32_t>{0}, "unanswered");
         settings.batches = batches;
-        const std::uint64_t granule = std::uint64_t{width} * batches;
-        gpu::run_in_chunks(
-            device, stage, tree.count, granule, progress,
-            [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
-                settings.first = static_cast<std::uint32_t>(first);
-                settings.count = static_cast<std::uint32_t>(count);
-                dispatch(commands, {kernel, 0, defines, {}}, settings, unanswered,
-                         (count + granule - 1) / granule * width);
-            },
-            granule * device.limits().max_group_count);
-        if (unanswered.read<std::uint32_t>(1)[0] == 0)
+        const std::uint64_t per_group = std::uint64_t{device.limits().subgroup_size} * batches;
+        if (try_gather(device, tree, {kernel, 0, defines, {}}, settings, per_group, stage, dispatch, progress))
             return;
     }
-    throw Error(stage + ": some photons reach more of the map than one workgroup can look through; are very many "
-                        "photons in one place, or of one layer spread over all of a large map?");
+    refuse_crowd(stage);
+}
+
+void run_gather_singly(gpu::Device& device, const KdTree& tree, const std::string& kernel,
+                       const std::vector<std::string>& defines, const shared::GatherSettings& settings,
+                       const std::string& stage, const GatherDispatch& dispatch, const Progress& progress) {
+    if (!try_gather(device, tree, {kernel, 0, defines, {}}, settings, 1, stage, dispatch, progress))
+        refuse_crowd(stage);
 }
 
 } // namespace photonloupe

@@ -36,4 +36,9 @@ void run_gather(gpu::Device& device, const KdTree& tree, const std::string& kern
                 const std::vector<std::string>& defines, shared::GatherSettings settings, const std::string& stage,
                 const GatherDispatch& dispatch, const Progress& progress);
 
+// The same for kernels in which a subgroup takes one photon at a time.
+void run_gather_singly(gpu::Device& device, const KdTree& tree, const std::string& kernel,
+                       const std::vector<std::string>& defines, const shared::GatherSettings& settings,
+                       const std::string& stage, const GatherDispatch& dispatch, const Progress& progress);
+
 } // namespace photonloupe

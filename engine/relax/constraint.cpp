@@ -21,9 +21,10 @@ Constraint measure_constraint(gpu::Device& device, const KdTree& tree, const Gat
     const gpu::Buffer& parameters = layers.parameters.is_empty() ? tree.positions : layers.parameters;
     const gpu::Buffer& reach2 = layers.reach2.is_empty() ? radii : layers.reach2;
     const gpu::Buffer& periods = layers.periods.is_empty() ? radii : layers.periods;
-    const auto run = [&](const char* kernel, const shared::GatherSettings& gather) {
-        run_gather(
-            device, tree, kernel, list_defines(shape, settings.descriptor), gather, "measure constraint",
+    const auto run = [&](const char* kernel, const auto& run_kernel) {
+        run_kernel(
+            device, tree, kernel, list_defines(shape, settings.descriptor),
+            make_gather_settings(tree, shape, settings.neighbors), "measure constraint",
             [&](gpu::Commands& commands, const gpu::KernelSource& source, const shared::GatherSettings& chunk,
                 const gpu::Buffer& unanswered, std::uint64_t invocations) {
                 const shared::DescribeSettings push{chunk, settings.free_at, settings.fixed_at, 0, 0};
@@ -44,11 +45,11 @@ Constraint measure_constraint(gpu::Device& device, const KdTree& tree, const Gat
             },
             progress);
     };
-    run("relax/measure_moments.comp", make_gather_settings(tree, shape, settings.neighbors));
+    run("relax/measure_moments.comp", run_gather);
     if (settings.descriptor == Descriptor::tensor)
-        run("relax/measure_tensor.comp", make_gather_settings(tree, shape, settings.neighbors));
+        run("relax/measure_tensor.comp", run_gather);
     if (settings.descriptor == Descriptor::split)
-        run("relax/measure_split.comp", make_gather_settings(tree, shape, settings.neighbors));
+        run("relax/measure_split.comp", run_gather_singly);
     return constraint;
 }
 

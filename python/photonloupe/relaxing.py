@@ -30,9 +30,9 @@ MAX_NEIGHBORS = 998  # the one after them gives the radius, and the photon itsel
 FEWEST_CONSTRAINT_NEIGHBORS = 12
 CONSTRAINT_NEIGHBORS = {"split": 150}
 DEFAULT_CONSTRAINT_NEIGHBORS = 50
-# Axis ratio t that 5 % of uniform points stay below, for k = 20, 50, 100, 250: 1 - c/√k with these c (METHODS 5.2).
+# Axis ratio t that 5 % of uniform points stay below (METHODS 5.2); 1 - c/√k between them, with c linear in log k.
 _ISOTROPY_K = (20.0, 50.0, 100.0, 250.0)
-_ISOTROPY_C = (1.744, 1.768, 1.8, 1.897)
+_ISOTROPY_QUANTILES = (0.61, 0.75, 0.82, 0.88)
 _ISOTROPY_MARGIN = 0.05
 _ISOTROPY_SPAN = 0.3
 # Largest eigenvalue over that of noise; homogeneity of spacings (METHODS 5.3, 5.4).
@@ -45,7 +45,8 @@ MAX_BETA = 1e18
 
 def find_pca_thresholds(k: int) -> tuple[float, float]:
     """Axis ratios t that leave a photon free and that fix it, for k neighbors (METHODS section 5.2)."""
-    c = float(np.interp(math.log(k), np.log(_ISOTROPY_K), _ISOTROPY_C))
+    factors = (1.0 - np.array(_ISOTROPY_QUANTILES)) * np.sqrt(_ISOTROPY_K)
+    c = float(np.interp(math.log(k), np.log(_ISOTROPY_K), factors))
     free_at = 1.0 - c / math.sqrt(k) + _ISOTROPY_MARGIN
     return free_at, free_at - _ISOTROPY_SPAN
 

@@ -36,24 +36,29 @@ layout(push_constant) uniform Push { DescribeSettings settings; };
 
 // A half disc's mean offset is 4/(3π) of its radius.
 const float HALF_DISC_OFFSET = 0.4244;
-// One-sidedness from which on a photon counts as lying at an edge, and the span to a sure one.
-const float EDGE_FROM = 0.35;
-const float EDGE_SPAN = 0.45;
+// One-sidedness that leaves a photon free, and the one of a sure edge (METHODS §5.2).
+const float EDGE_FREE = 0.35;
+const float EDGE_FIXED = 0.8;
 
 void describe_photon(uint position) {
     float members = my_gathered.others > 0u ? my_gathered.members : 0.0;
-    float r = sqrt(my_gathered.r2);
+    float r2 = my_gathered.r2 * (my_gathered.others == 1u ? 4.0 : 1.0); // of two photons r is twice their distance
+    float r = sqrt(r2);
     bool has_extent = r > 0.0 && members > 0.0;
     // In units of r, so that squares of tiny scenes do not underflow.
     vec2 mean = has_extent ? offset_sum / members / r : vec2(0.0);
-    vec3 squares = has_extent ? square_sum / members / my_gathered.r2 : vec3(0.0);
+    vec3 squares = has_extent ? square_sum / members / r2 : vec3(0.0);
     float one_sidedness = sqrt(dot(mean, mean)) / HALF_DISC_OFFSET;
     Eigen e = decompose(squares.x - mean.x * mean.x, squares.y - mean.x * mean.y, squares.z - mean.y * mean.y);
     float ratio = e.first > 0.0 ? sqrt(e.second / e.first) : 1.0;
     offsets[position] = vec4(lift_tangent(mean), members);
-    member_radii[position] = vec4(my_gathered.r2, my_gathered.tie_weight, one_sidedness, ratio);
+    member_radii[position] = vec4(r2, my_gathered.tie_weight, one_sidedness, ratio);
 #if DESCRIPTOR == 1 || DESCRIPTOR == 2 // gradient, pca
-    float edge = clamp((one_sidedness - EDGE_FROM) / EDGE_SPAN, 0.0, 1.0);
+#if DESCRIPTOR == 1
+    float edge = ramp(one_sidedness, settings.free_at, settings.fixed_at);
+#else
+    float edge = ramp(one_sidedness, EDGE_FREE, EDGE_FIXED);
+#endif
     float line = DESCRIPTOR == 2 ? ramp(ratio, settings.free_at, settings.fixed_at) : 0.0;
     vec2 across = edge > line || DESCRIPTOR == 1 ? mean : vec2(-e.axis.y, e.axis.x);
     write_constraint(position, members, mean, across, has_extent ? max(edge, line) : 0.0);

@@ -14,11 +14,12 @@ float ramp(float value, float free_at, float fixed_at) {
 
 // `across` need not be a unit vector; it is turned to point up the gradient.
 void write_constraint(uint position, float members, vec2 mean, vec2 across, float weight) {
+    bool is_frozen = members < FEWEST_MEMBERS;
+    if (is_frozen) across = mean;
     float size = max(abs(across.x), abs(across.y));
     vec2 direction = size > 0.0 ? normalize(across / size) : vec2(1.0, 0.0);
     if (dot(direction, mean) < 0.0) direction = -direction;
     vec3 v = lift_tangent(direction);
-    bool is_frozen = members < FEWEST_MEMBERS;
     constraint_along[position] = vec4(cross(v, my_normal), is_frozen ? 1.0 : 0.0);
     constraint_across[position] = vec4(v, is_frozen ? 1.0 : weight);
 }

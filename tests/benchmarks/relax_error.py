@@ -59,13 +59,22 @@ class Family:
         return self.seconds[self.find_best("rmse")]
 
 
-def scan_neighbors(photons: pl.PhotonMap, reference: Reference, ks: Sequence[int]) -> dict[int, tuple[Errors, float]]:
+@dataclass(frozen=True)
+class Study:
+    """What all families are held against, how they are estimated, over how many seeds."""
+
+    reference: Reference
+    seeds: int = SEEDS
+    bare: bool = False
+
+
+def scan_neighbors(photons: pl.PhotonMap, study: Study, ks: Sequence[int]) -> dict[int, tuple[Errors, float]]:
     """Errors and seconds of the estimate for ascending k, until both errors only grow."""
     found: dict[int, tuple[Errors, float]] = {}
     for k in ks:
         start = time.perf_counter()
-        cells = estimate_cells(photons, k, reference)
-        found[k] = (reference.measure(cells), time.perf_counter() - start)
+        cells = estimate_cells(photons, k, study.reference, bare=study.bare)
+        found[k] = (study.reference.measure(cells), time.perf_counter() - start)
         figures = np.array([(errors.rmse, errors.mean_abs) for errors, _ in found.values()])
         if np.all(figures[-1] > PAST_LEAST * figures.min(axis=0)):
             break
@@ -80,16 +89,16 @@ def list_candidates(found: dict[int, tuple[Errors, float]]) -> list[int]:
     return [k for place, k in enumerate(ks) if np.abs(best - place).min() <= 1]
 
 
-def measure_family(build: Build, reference: Reference, seeds: int) -> Family:
+def measure_family(build: Build, study: Study) -> Family:
     """Build and estimate with every seed: all k on the first, then those that can be best."""
     scans, builds, counts = [], [], []
-    for number in range(seeds):
+    for number in range(study.seeds):
         start = time.perf_counter()
         photons = build(FIRST_SEED + number)
         photons.neighbors([0], 1)  # the tree belongs to the map's cost, not to the first k's
         builds.append(time.perf_counter() - start)
         counts.append(len(photons))
-        scans.append(scan_neighbors(photons, reference, list_candidates(scans[0]) if scans else NEIGHBORS))
+        scans.append(scan_neighbors(photons, study, list_candidates(scans[0]) if scans else NEIGHBORS))
     shared = [k for k in scans[0] if all(k in scan for scan in scans)]
     return Family(
         float(np.mean(counts)),
@@ -134,11 +143,9 @@ def format_ratios(raw: list[Family], relaxed: Family) -> str:
     return f"{', '.join(parts)}; time {sign}{seconds / relaxed.get_seconds():.1f}"
 
 
-def add_relaxed(
-    subject: Subject, reference: Reference, raw: list[Family], method: Method, emission: str, seeds: int
-) -> None:
+def add_relaxed(subject: Subject, study: Study, raw: list[Family], method: Method, emission: str) -> None:
     """Row of one method, beside raw photons of the same number."""
-    family = measure_family(lambda seed: trace_and_relax(method, emission, seed), reference, seeds)
+    family = measure_family(lambda seed: trace_and_relax(method, emission, seed), study)
     beside = min(raw, key=lambda each: abs(each.count - family.count))
     edge, raw_edge = (each.errors[each.find_best("rmse")].edge for each in (family, beside))
     subject.rows.append(
@@ -155,16 +162,21 @@ def add_relaxed(
     print(f"  {subject.rows[-1].work}: {family}", flush=True)
 
 
-def describe(reference: Reference, seeds: int) -> list[str]:
+def describe(study: Study) -> list[str]:
     """Say how the figures were taken."""
+    counting = (
+        "no cell is counted"
+        if study.bare
+        else "a cell with more than k photons is counted, since the support is smaller than the cell; with 2² points a "
+        "cell the figures at the best k differ by less than a tenth"
+    )
     return [
-        f"The scene ring, light reflected once (signature 1), red channel, {seeds} seeds. Reference: the closed form "
+        f"The scene ring, light reflected once (signature 1), red channel, {study.seeds} seeds. Reference: the closed form "
         f"(METHODS §8.5) summed over {LINES:,} lines into 512² cells of {CELL_SIDE * 1e3:.1f} mm; 10⁸ binned Sobol "
-        "paths differ from it by their own noise. Estimates: Epanechnikov at the middles of the cells; a cell with "
-        "more than k photons is counted, since the support is smaller than the cell. With 2² points a cell the "
-        "figures at the best k differ by less than a tenth.",
+        "paths differ from it by their own noise. Estimates: Epanechnikov at the middles of the cells; "
+        f"{counting}.",
         "Figures: RMSE, mean absolute error over all cells in units of the window's mean "
-        f"({reference.mean:.4f} W/m²), each at its best k (METHODS section 7 states them in units of its densities, "
+        f"({study.reference.mean:.4f} W/m²), each at its best k (METHODS section 7 states them in units of its densities, "
         "whose means are 0.25 and 0.11: divide its figures by those); then, at the first's k: smooth, RMS of the "
         "relative error over lit cells more than 12 from every edge; edge, Σ|error| / Σ reference over cells within 3 "
         "of the caustic's curve or where the reference changes more than 3× in 5 cells; band, contrast over the "
@@ -175,20 +187,20 @@ def describe(reference: Reference, seeds: int) -> list[str]:
     ]
 
 
-def measure(*, seeds: int = SEEDS, variants: bool = False, relaxed: bool = True) -> Subject:
+def measure(*, seeds: int = SEEDS, variants: bool = False, relaxed: bool = True, bare: bool = False) -> Subject:
     """Raw photons of every count, then every method, with both emissions."""
-    reference = load_reference()
-    subject = Subject("Relaxation on the ring, errors", notes=describe(reference, seeds))
+    study = Study(load_reference(), seeds, bare)
+    subject = Subject("Relaxation on the ring, errors", notes=describe(study))
     for emission in EMISSIONS:
         raw = []
         for count in RAW_COUNTS:
-            family = measure_family(lambda seed, n=count: trace_once_reflected(n, emission, seed), reference, seeds)  # noqa: B023
+            family = measure_family(lambda seed, n=count: trace_once_reflected(n, emission, seed), study)  # noqa: B023
             raw.append(family)
             subject.rows.append(Row(f"raw; {emission}, {family.count:,.0f} photons", "—", "—", str(family)))
             print(f"  {subject.rows[-1].work}: {family}", flush=True)
         for method in (*METHODS, *(VARIANTS if variants else ())) if relaxed else ():
             if emission in method.steps:
-                add_relaxed(subject, reference, raw, method, emission, seeds)
+                add_relaxed(subject, study, raw, method, emission)
     return subject
 
 
@@ -197,5 +209,6 @@ if __name__ == "__main__":
     parser.add_argument("--seeds", type=int, default=SEEDS, help="maps to average over")
     parser.add_argument("--variants", action="store_true", help="more settings than METHODS section 7 tabulates")
     parser.add_argument("--raw", action="store_true", help="raw photons only")
-    arguments = parser.parse_args()
-    print_subject(measure(seeds=arguments.seeds, variants=arguments.variants, relaxed=not arguments.raw))
+    parser.add_argument("--bare", action="store_true", help="count no crowded cells, as METHODS section 7 did not")
+    given = parser.parse_args()
+    print_subject(measure(seeds=given.seeds, variants=given.variants, relaxed=not given.raw, bare=given.bare))

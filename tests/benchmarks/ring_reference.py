@@ -139,10 +139,15 @@ def find_points(reference: Reference) -> tuple[NDArray[np.float32], NDArray[np.i
     return np.ascontiguousarray(build_cell_centers()[chosen]), rows.reshape(stands.shape)
 
 
-def estimate_cells(photons: pl.PhotonMap, k: int, reference: Reference) -> Doubles:
-    """Irradiance at the cells' middles; a cell with more than k photons is counted, its support being smaller."""
+def estimate_cells(photons: pl.PhotonMap, k: int, reference: Reference, *, bare: bool = False) -> Doubles:
+    """Irradiance at the cells' middles; unless `bare`, a cell with more than k photons, wider than the support, counts.
+
+    The reference holds averages, and the estimate at one point is none where its support is smaller than the cell.
+    """
     points, rows = find_points(reference)
     middles = photons.irradiance(points, UP, k=k)[:, RED].astype(np.float64)[rows]
+    if bare:
+        return middles
     counted = bin_photons(photons).reshape(middles.shape)
     crowded = counted * CELL_SIDE**2 > k * photons.power[:, RED].max()
     return np.where(crowded, counted, middles)

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// The `split` descriptor (METHODS §5.4, after [SJ09]): along the mean offset δ the neighbours' signed distances ψ are
+// sorted, with -r and r at the ends; the gap that leaves the evenest gaps on both its sides is where an edge may be.
+// A subgroup takes one photon at a time. Inputs: the tree, tree_normals, parameters where they decide, offsets and
+// member_radii of relax/measure_moments.comp. Outputs: constraint_along, constraint_across, unanswered.
+#include "shared/prelude.glsl"
+#include "shared/relax.h"
+#include "relax/tangent_plane.glsl"
+#include "photons/visit_tiles.glsl"
+#include "relax/write_constraint.glsl"
+#pragma binding readonly vec4 offsets
+#pragma binding readonly vec4 member_radii
+#pragma binding writeonly uint unanswered
+
+layout(push_constant) uniform Push { DescribeSettings settings; };
+
+const uint LIST_SIZE = 1024u; // a power of two above the 998 neighbours and both ends
+const uint FEWEST_GAPS = 8u;  // on each side, or their evenness says nothing
+
+shared float signed_distances[LIST_SIZE];
+
+vec2 my_direction;
+float my_r2;
+uint listed;
+
+// Each lane looks at its own photon of the tile; those at just the radius are as good as the end there.
+void visit_tile(uint next, uint end) {
+    uint position = next + LANE;
+    Candidate other = load_candidate(min(position, settings.gather.photon_count - 1u), position < end);
+    Place d = find_offset(other);
+    bool is_self = position == settings.gather.first + gl_WorkGroupID.x;
+    bool is_member = measure_candidate(other) < my_r2 && !is_self;
+    uvec4 ballot = subgroupBallot(is_member);
+    uint at = min(listed + subgroupBallotExclusiveBitCount(ballot), LIST_SIZE - 1u);
+    if (is_member) signed_distances[at] = dot(my_direction, project_offset(d));
+    listed += subgroupBallotBitCount(ballot);
+}
+
+// Bitonic sort of the list, padded to a power of two.
+uint sort_list(uint count) {
+    uint padded = 1u;
+    while (padded < count) padded <<= 1u;
+    for (uint i = count + LANE; i < padded; i += WIDTH) signed_distances[i] = INFINITY;
+    synchronize();
+    for (uint size = 2u; size <= padded; size <<= 1u)
+        for (uint gap = size >> 1u; gap > 0u; gap >>= 1u) {
+            turns += padded / (2u * WIDTH) + 2u;
+            for (uint pair = LANE; pair < padded / 2u; pair += WIDTH) {
+                uint low = 2u * gap * (pair / gap) + pair % gap;
+                float a = signed_distances[low], b = signed_distances[low + gap];
+                bool swap = (b < a) == ((low & size) == 0u);
+                signed_distances[low] = swap ? b : a;
+                signed_distances[low + gap] = swap ? a : b;
+            }
+            synchronize();
+        }
+    return padded;
+}
+
+// Weight, weighted gap and weighted squared gap; a disc is thin near its ends, so gaps there count little.
+vec3 weigh_gap(uint gap, float r) {
+    float a = signed_distances[gap], b = signed_distances[gap + 1u];
+    float middle = 0.5 * (a + b) / r;
+    float weight = max(1.0 - middle * middle, 0.0);
+    float size = (b - a) / r;
+    return vec3(weight, weight * size, weight * size * size);
+}
+
+// Mean gap, and deviation over mean.
+vec2 find_evenness(vec3 sums) {
+    float mean = sums.x > 0.0 ? sums.y / sums.x : 0.0;
+    float variance = sums.x > 0.0 ? max(sums.z / sums.x - mean * mean, 0.0) : 0.0;
+    return vec2(mean, mean > 0.0 ? sqrt(variance) / mean : 0.0);
+}
+
+vec3 scan_sums(vec3 own, out vec3 total) {
+    total = vec3(subgroupAdd(own.x), subgroupAdd(own.y), subgroupAdd(own.z));
+    return vec3(subgroupExclusiveAdd(own.x), subgroupExclusiveAdd(own.y), subgroupExclusiveAdd(own.z));
+}
+
+// Weight of the constraint from the best split; every lane takes a run of gaps.
+float weigh_split(uint gap_count, float r) {
+    uint run = (gap_count + WIDTH - 1u) / WIDTH;
+    uint first = min(LANE * run, gap_count), end = min(first + run, gap_count);
+    turns += 2u * run + 4u;
+    vec3 own = vec3(0.0);
+    for (uint gap = first; gap < end; ++gap) own += weigh_gap(gap, r);
+    vec3 total;
+    vec3 left = scan_sums(own, total);
+    float best = INFINITY;
+    uint best_gap = 0u;
+    vec2 best_means = vec2(0.0);
+    for (uint gap = first; gap < end; ++gap) {
+        vec3 here = weigh_gap(gap, r);
+        vec2 before = find_evenness(left);
+        vec2 after = find_evenness(total - left - here);
+        float unevenness = before.y + after.y;
+        bool counts = gap >= FEWEST_GAPS && gap + FEWEST_GAPS < gap_count;
+        bool better = counts && unevenness < best;
+        best = better ? unevenness : best;
+        best_gap = better ? gap : best_gap;
+        best_means = better ? vec2(before.x, after.x) : best_means;
+        left += here;
+    }
+    bool is_best = best < INFINITY && best == subgroupMin(best);
+    uvec4 ballot = subgroupBallot(is_best);
+    if (subgroupBallotBitCount(ballot) == 0u) return 0.0;
+    uint winner = subgroupBallotFindLSB(ballot); // runs ascend with the lanes: the first split of those that tie
+    uint gap = subgroupBroadcast(best_gap, winner);
+    vec2 means = vec2(subgroupBroadcast(best_means.x, winner), subgroupBroadcast(best_means.y, winner));
+    float middle = 0.5 * (signed_distances[gap] + signed_distances[gap + 1u]) / r;
+    float larger = max(means.x, means.y);
+    float homogeneity = larger > 0.0 ? min(means.x, means.y) / larger : 1.0;
+    bool is_near = abs(middle) <= 0.5 * (means.x + means.y);
+    return is_near ? ramp(homogeneity, settings.free_at, settings.fixed_at) : 0.0;
+}
+
+void list_neighbors(uint photon_count, uint leaf_level) {
+    listed = 0u;
+    set_batch(true, my_r2);
+    uint depth = leaf_level == 0u ? 0u : 1u;
+    uint leaf_count = leaf_level == 0u ? 1u : 0u;
+    start_walk();
+    do {
+        walk_tree(leaf_level, depth, leaf_count);
+        visit_leaves(leaf_count, photon_count, leaf_level);
+        leaf_count = 0u;
+        ++turns;
+    } while (depth > 0u && has_turns_left());
+}
+
+void main() {
+    uint position = settings.gather.first + gl_WorkGroupID.x;
+    if (gl_WorkGroupID.x >= settings.gather.count) return;
+    take_photon(position, settings.gather.period, settings.gather.flatness);
+    set_tangents();
+    vec4 own = offsets[position];
+    vec2 mean = project_vector(own.xyz);
+    my_r2 = member_radii[position].x;
+    float r = sqrt(my_r2);
+    float size = max(abs(mean.x), abs(mean.y));
+    my_direction = size > 0.0 ? normalize(mean / size) : vec2(0.0);
+    list_neighbors(settings.gather.photon_count, settings.gather.leaf_level);
+    if (LANE == 0u) {
+        signed_distances[min(listed, LIST_SIZE - 1u)] = -r;
+        signed_distances[min(listed + 1u, LIST_SIZE - 1u)] = r;
+    }
+    uint count = min(listed + 2u, LIST_SIZE);
+    sort_list(count);
+    float weight = weigh_split(count - 1u, r);
+    if (size == 0.0 || r == 0.0) weight = 0.0;
+    if (LANE == 0u) {
+        write_constraint(position, own.w, mean, mean, weight);
+        if (!has_turns_left()) unanswered[0] = 1u;
+    }
+}
