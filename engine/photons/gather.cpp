@@ -2,6 +2,7 @@
 // Specialises and dispatches the gathering kernels.
 #include "photons/gather.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <sstream>
@@ -58,8 +59,15 @@ std::vector<std::string> list_parameter_defines(const GatherShape& shape) {
 }
 
 std::vector<std::string> list_gather_defines(const GatherShape& shape) {
-    std::vector<std::string> defines{"SHELL_SIZE " + std::to_string(SHELL_SIZE) + "u",
-                                     "SORT_NETWORK " + write_sort_network(SHELL_SIZE), write_shell_load()};
+    std::vector<std::string> defines = list_shape_defines(shape);
+    defines.push_back("SHELL_SIZE " + std::to_string(SHELL_SIZE) + "u");
+    defines.push_back("SORT_NETWORK " + write_sort_network(SHELL_SIZE));
+    defines.push_back(write_shell_load());
+    return defines;
+}
+
+std::vector<std::string> list_shape_defines(const GatherShape& shape) {
+    std::vector<std::string> defines;
     if (!shape.flat_axes.empty())
         defines.push_back("FLAT_AXES " + shape.flat_axes);
     if (shape.period != std::array<float, 3>{})
@@ -81,21 +89,57 @@ shared::GatherSettings make_gather_settings(const KdTree& tree, const GatherShap
 
 namespace {
 
-// Runs the kernel over all photons, `per_group` a workgroup of one subgroup; false if some were left unanswered.
-bool try_gather(gpu::Device& device, const KdTree& tree, const gpu::KernelSource& kernel,
-                shared::GatherSettings settings, std::uint64_t per_group, const std::string& stage,
-                const GatherDispatch& dispatch, const Progress& progress) {
+// One way to run a kernel: how many photons, and how many of them a workgroup of one subgroup takes.
+struct GatherRun {
+    gpu::KernelSource kernel;
+    std::uint64_t total;
+    std::uint64_t per_group;
+};
+
+// Runs it; returns the flags of the subgroups' runs of photons that were left unanswered.
+std::vector<std::uint32_t> gather_once(gpu::Device& device, const KdTree& tree, const GatherRun& run,
+                                       const gpu::Buffer& singles, shared::GatherSettings settings,
+                                       const std::string& stage, const GatherDispatch& dispatch,
+                                       const Progress& progress) {
     const std::uint32_t width = device.limits().subgroup_size;
-    const gpu::Buffer unanswered = gpu::make_buffer(device, std::vector<std::uint32_t>{0}, "unanswered");
+    const std::uint64_t runs = (tree.count + width - 1) / width;
+    const gpu::Buffer unanswered = gpu::make_buffer(device, std::vector<std::uint32_t>(runs), "unanswered");
     gpu::run_in_chunks(
-        device, stage, tree.count, per_group, progress,
+        device, stage, run.total, run.per_group, progress,
         [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
             settings.first = static_cast<std::uint32_t>(first);
             settings.count = static_cast<std::uint32_t>(count);
-            dispatch(commands, kernel, settings, unanswered, (count + per_group - 1) / per_group * width);
+            dispatch(commands, run.kernel, settings, {singles, unanswered},
+                     (count + run.per_group - 1) / run.per_group * width);
         },
-        per_group * device.limits().max_group_count);
-    return unanswered.read<std::uint32_t>(1)[0] == 0;
+        run.per_group * device.limits().max_group_count);
+    return unanswered.read<std::uint32_t>(runs);
+}
+
+bool has_flag(const std::vector<std::uint32_t>& flags) {
+    return std::any_of(flags.begin(), flags.end(), [](std::uint32_t flag) { return flag != 0; });
+}
+
+// Photons of the runs that are flagged.
+std::vector<std::uint32_t> list_flagged(const std::vector<std::uint32_t>& flags, std::uint32_t width,
+                                        std::uint64_t photon_count) {
+    std::vector<std::uint32_t> photons;
+    for (std::size_t run = 0; run < flags.size(); ++run)
+        for (std::uint64_t at = run * width; flags[run] && at < std::min(photon_count, (run + 1) * width); ++at)
+            photons.push_back(static_cast<std::uint32_t>(at));
+    return photons;
+}
+
+// Runs the kernel side by side; photons of the runs that were left unanswered.
+std::vector<std::uint32_t> find_unanswered(gpu::Device& device, const KdTree& tree, const gpu::KernelSource& kernel,
+                                           shared::GatherSettings settings, const std::string& stage,
+                                           const GatherDispatch& dispatch, const Progress& progress) {
+    const std::uint32_t width = device.limits().subgroup_size;
+    settings.batches = BATCHES;
+    const gpu::Buffer none = gpu::make_buffer(device, std::vector<std::uint32_t>{0}, "single photons");
+    return list_flagged(gather_once(device, tree, {kernel, tree.count, std::uint64_t{width} * BATCHES}, none, settings,
+                                    stage, dispatch, progress),
+                        width, tree.count);
 }
 
 [[noreturn]] void refuse_crowd(const std::string& stage) {
@@ -105,22 +149,44 @@ bool try_gather(gpu::Device& device, const KdTree& tree, const gpu::KernelSource
 
 } // namespace
 
+bool gather_side_by_side(gpu::Device& device, const KdTree& tree, const std::string& kernel,
+                         const std::vector<std::string>& defines, const shared::GatherSettings& settings,
+                         const std::string& stage, const GatherDispatch& dispatch, const Progress& progress) {
+    return tree.count == 0 ||
+           find_unanswered(device, tree, {kernel, 0, defines, {}}, settings, stage, dispatch, progress).empty();
+}
+
+bool try_gather(gpu::Device& device, const KdTree& tree, const std::string& kernel,
+                const std::vector<std::string>& defines, const shared::GatherSettings& settings,
+                const std::string& stage, const GatherDispatch& dispatch, const Progress& progress) {
+    if (tree.count == 0)
+        return true;
+    const std::vector<std::uint32_t> left =
+        find_unanswered(device, tree, {kernel, 0, defines, {}}, settings, stage, dispatch, progress);
+    if (left.empty())
+        return true;
+    std::vector<std::string> singly = defines;
+    singly.emplace_back("SINGLY");
+    const gpu::Buffer singles = gpu::make_buffer(device, left, "single photons");
+    return !has_flag(gather_once(device, tree, {{kernel, 0, singly, {}}, left.size(), 1}, singles, settings, stage,
+                                 dispatch, progress));
+}
+
 void run_gather(gpu::Device& device, const KdTree& tree, const std::string& kernel,
-                const std::vector<std::string>& defines, shared::GatherSettings settings, const std::string& stage,
-                const GatherDispatch& dispatch, const Progress& progress) {
-    for (const std::uint32_t batches : {BATCHES, 1u}) { // fewer photons share a workgroup's loop turns the second time
-        settings.batches = batches;
-        const std::uint64_t per_group = std::uint64_t{device.limits().subgroup_size} * batches;
-        if (try_gather(device, tree, {kernel, 0, defines, {}}, settings, per_group, stage, dispatch, progress))
-            return;
-    }
-    refuse_crowd(stage);
+                const std::vector<std::string>& defines, const shared::GatherSettings& settings,
+                const std::string& stage, const GatherDispatch& dispatch, const Progress& progress) {
+    if (!try_gather(device, tree, kernel, defines, settings, stage, dispatch, progress))
+        refuse_crowd(stage);
 }
 
 void run_gather_singly(gpu::Device& device, const KdTree& tree, const std::string& kernel,
                        const std::vector<std::string>& defines, const shared::GatherSettings& settings,
                        const std::string& stage, const GatherDispatch& dispatch, const Progress& progress) {
-    if (!try_gather(device, tree, {kernel, 0, defines, {}}, settings, 1, stage, dispatch, progress))
+    if (tree.count == 0)
+        return;
+    const gpu::Buffer none = gpu::make_buffer(device, std::vector<std::uint32_t>{0}, "single photons");
+    if (has_flag(gather_once(device, tree, {{kernel, 0, defines, {}}, tree.count, 1}, none, settings, stage, dispatch,
+                             progress)))
         refuse_crowd(stage);
 }
 

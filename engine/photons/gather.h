@@ -22,19 +22,37 @@ std::string find_flat_axes(const KdTree& tree);
 
 // What kernels that look at parameters are specialised to.
 std::vector<std::string> list_parameter_defines(const GatherShape& shape);
+std::vector<std::string> list_shape_defines(const GatherShape& shape); // of all that look at photons
 std::vector<std::string> list_gather_defines(const GatherShape& shape);
 
 shared::GatherSettings make_gather_settings(const KdTree& tree, const GatherShape& shape, std::uint32_t k);
 
-// Records one dispatch; gets the kernel, the settings of its chunk, and the flag to bind as `unanswered`.
+// What every gathering kernel binds beside its own.
+struct GatherBuffers {
+    const gpu::Buffer& singles;    // tree positions of photons that are taken one by one
+    const gpu::Buffer& unanswered; // a flag for each subgroup's run of photons
+};
+
+// Records one dispatch; gets the kernel and the settings of its chunk.
 using GatherDispatch = std::function<void(gpu::Commands&, const gpu::KernelSource&, const shared::GatherSettings&,
-                                          const gpu::Buffer& unanswered, std::uint64_t invocations)>;
+                                          const GatherBuffers&, std::uint64_t invocations)>;
+
+// Runs a kernel over all photons of the tree, in tree order; false if a workgroup's loop turns did not suffice.
+bool gather_side_by_side(gpu::Device& device, const KdTree& tree, const std::string& kernel,
+                         const std::vector<std::string>& defines, const shared::GatherSettings& settings,
+                         const std::string& stage, const GatherDispatch& dispatch, const Progress& progress);
+
+// The same; photons that a workgroup's loop turns do not suffice for
+// are asked one by one in the end. False if that did not suffice either.
+bool try_gather(gpu::Device& device, const KdTree& tree, const std::string& kernel,
+                const std::vector<std::string>& defines, const shared::GatherSettings& settings,
+                const std::string& stage, const GatherDispatch& dispatch, const Progress& progress);
 
 // Runs a kernel over all photons of the tree, in tree order. Throws Error where photons are so crowded that a
 // workgroup cannot look through those it reaches.
 void run_gather(gpu::Device& device, const KdTree& tree, const std::string& kernel,
-                const std::vector<std::string>& defines, shared::GatherSettings settings, const std::string& stage,
-                const GatherDispatch& dispatch, const Progress& progress);
+                const std::vector<std::string>& defines, const shared::GatherSettings& settings,
+                const std::string& stage, const GatherDispatch& dispatch, const Progress& progress);
 
 // The same for kernels in which a subgroup takes one photon at a time.
 void run_gather_singly(gpu::Device& device, const KdTree& tree, const std::string& kernel,

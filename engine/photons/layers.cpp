@@ -163,7 +163,7 @@ gpu::Buffer find_parameter_radii2(gpu::Device& device, const PhotonMap& photons,
         device, parameter_tree.tree, "photons/find_parameter_radius.comp", list_gather_defines(parameter_tree.shape),
         settings, STAGE,
         [&](gpu::Commands& commands, const gpu::KernelSource& kernel, const shared::GatherSettings& push,
-            const gpu::Buffer& unanswered, std::uint64_t invocations) {
+            const GatherBuffers& buffers, std::uint64_t invocations) {
             commands.dispatch(kernel,
                               {{"tree_nodes", parameter_tree.tree.nodes},
                                {"tree_positions", parameter_tree.tree.positions},
@@ -171,7 +171,8 @@ gpu::Buffer find_parameter_radii2(gpu::Device& device, const PhotonMap& photons,
                                {"tree_parameters", parameter_tree.parameters},
                                {"parameter_periods", parameter_tree.periods},
                                {"parameter_radii2", radii2},
-                               {"unanswered", unanswered}},
+                               {"singles", buffers.singles},
+                               {"unanswered", buffers.unanswered}},
                               push, invocations);
         },
         progress);

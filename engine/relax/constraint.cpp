@@ -26,7 +26,7 @@ Constraint measure_constraint(gpu::Device& device, const KdTree& tree, const Gat
             device, tree, kernel, list_defines(shape, settings.descriptor),
             make_gather_settings(tree, shape, settings.neighbors), "measure constraint",
             [&](gpu::Commands& commands, const gpu::KernelSource& source, const shared::GatherSettings& chunk,
-                const gpu::Buffer& unanswered, std::uint64_t invocations) {
+                const GatherBuffers& buffers, std::uint64_t invocations) {
                 const shared::DescribeSettings push{chunk, settings.free_at, settings.fixed_at, 0, 0};
                 commands.dispatch(source,
                                   {{"tree_nodes", tree.nodes},
@@ -40,7 +40,8 @@ Constraint measure_constraint(gpu::Device& device, const KdTree& tree, const Gat
                                    {"member_radii", constraint.member_radii},
                                    {"constraint_along", constraint.along},
                                    {"constraint_across", constraint.across},
-                                   {"unanswered", unanswered}},
+                                   {"singles", buffers.singles},
+                                   {"unanswered", buffers.unanswered}},
                                   push, invocations);
             },
             progress);

@@ -18,7 +18,7 @@ std::vector<float> measure_isotropy(gpu::Device& device, const PhotonMap& photon
         device, tree, "relax/measure_isotropy.comp", list_gather_defines(parameter_tree.shape), settings,
         "measure isotropy",
         [&](gpu::Commands& commands, const gpu::KernelSource& kernel, const shared::GatherSettings& push,
-            const gpu::Buffer& unanswered, std::uint64_t invocations) {
+            const GatherBuffers& buffers, std::uint64_t invocations) {
             commands.dispatch(kernel,
                               {{"tree_nodes", tree.nodes},
                                {"tree_positions", tree.positions},
@@ -28,7 +28,8 @@ std::vector<float> measure_isotropy(gpu::Device& device, const PhotonMap& photon
                                {"position_emitter", photons.position_emitter},
                                {"normal_index", photons.normal_index},
                                {"axis_ratios", ratios},
-                               {"unanswered", unanswered}},
+                               {"singles", buffers.singles},
+                               {"unanswered", buffers.unanswered}},
                               push, invocations);
         },
         progress);

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "photons/layers.h"
+#include "photons/query_tree.h"
 
 namespace photonloupe {
 namespace {
@@ -27,6 +27,42 @@ float find_tau(const RelaxSettings& settings, std::uint32_t step) {
     return static_cast<float>(least + (most - least) * std::exp(-6.0 * s * s));
 }
 
+gpu::Buffer make_filled(gpu::Device& device, std::uint64_t bytes, const char* purpose) {
+    gpu::Buffer buffer(device, bytes, purpose);
+    gpu::Commands commands(device, STAGE);
+    commands.fill(buffer, 0);
+    commands.run();
+    return buffer;
+}
+
+// Entries a list needs so that it lasts some steps: half as many again as the neighbours, and some.
+std::uint32_t size_lists(std::uint32_t neighbors) {
+    const std::uint32_t wanted = 2 * neighbors + 16;
+    return std::min((wanted + 7) / 8 * 8, 128u);
+}
+
+CandidateLists make_lists(gpu::Device& device, std::uint64_t photon_count, std::uint32_t neighbors) {
+    CandidateLists lists;
+    lists.size = size_lists(neighbors);
+    const std::uint64_t width = device.limits().subgroup_size;
+    const std::uint64_t slots = (photon_count + width - 1) / width * width;
+    lists.entries = gpu::Buffer(device, slots * lists.size * sizeof(std::uint32_t), "candidate lists");
+    lists.states = make_filled(device, photon_count * sizeof(glm::vec4), "candidate lists");
+    lists.counts = make_filled(device, photon_count * sizeof(std::uint32_t), "candidate lists");
+    return lists;
+}
+
+std::vector<std::string> list_list_defines(const GatherShape& shape, std::uint32_t size) {
+    std::vector<std::string> defines = list_shape_defines(shape);
+    std::string entries = "EACH_ENTRY(DO)";
+    for (std::uint32_t i = 0; i < size; ++i)
+        entries += " DO(" + std::to_string(i) + ")";
+    defines.push_back("LIST_SIZE " + std::to_string(size) + "u");
+    defines.push_back(entries);
+    defines.push_back("SORT_NETWORK " + write_sort_network(size));
+    return defines;
+}
+
 // What floats can tell apart at the largest coordinate of the map.
 float find_spacing(const KdTree& tree) {
     const shared::TreeNode root = tree.nodes.read<shared::TreeNode>(1, 1)[0];
@@ -34,14 +70,6 @@ float find_spacing(const KdTree& tree) {
     for (int axis = 0; axis < 3; ++axis)
         largest = std::max({largest, std::abs(root.lo_split[axis]), std::abs(root.hi_axis[axis])});
     return std::max(largest * 2.0f * std::numeric_limits<float>::epsilon(), 1e-15f);
-}
-
-gpu::Buffer make_filled(gpu::Device& device, std::uint64_t bytes, const char* purpose) {
-    gpu::Buffer buffer(device, bytes, purpose);
-    gpu::Commands commands(device, STAGE);
-    commands.fill(buffer, 0);
-    commands.run();
-    return buffer;
 }
 
 } // namespace
@@ -120,39 +148,98 @@ void Relaxation::find_surface(const Progress& progress) {
 }
 
 void Relaxation::repel(float tau, const Progress& progress) {
-    std::vector<std::string> defines = list_gather_defines(m_shape);
+    const float limiter =
+        m_settings.limit > 0 ? std::numbers::ln2_v<float> / (m_settings.limit * m_settings.limit) : 0.0f;
+    shared::RepelSettings push{make_gather_settings(m_tree, m_shape, m_settings.neighbors), tau, limiter, m_spacing, 0};
+    push.gather.carry = m_carry;
+    if (m_settings.search == RadiusSearch::listed && m_lists.size == 0)
+        m_lists = make_lists(m_device, m_photons.count, m_settings.neighbors);
+    repel_by(m_settings.search, push, progress);
+    m_carry = 1.0f;
+}
+
+void Relaxation::repel_by(RadiusSearch search, shared::RepelSettings push, const Progress& progress) {
+    const bool is_listed = search == RadiusSearch::listed;
+    std::vector<std::string> defines = is_listed ? list_list_defines(m_shape, m_lists.size) : list_gather_defines(m_shape);
     const bool is_constrained = m_settings.constraint.descriptor != Descriptor::none;
     if (is_constrained)
         defines.emplace_back("CONSTRAINED");
-    if (m_settings.search == RadiusSearch::carried)
-        defines.emplace_back("CARRIED");
-    shared::GatherSettings gather = make_gather_settings(m_tree, m_shape, m_settings.neighbors);
-    gather.carry = m_carry;
-    const float limiter =
-        m_settings.limit > 0 ? std::numbers::ln2_v<float> / (m_settings.limit * m_settings.limit) : 0.0f;
     const gpu::Buffer& unused = m_moves;
-    run_gather(
-        m_device, m_tree, "relax/repel_photons.comp", defines, gather, STAGE,
-        [&](gpu::Commands& commands, const gpu::KernelSource& kernel, const shared::GatherSettings& chunk,
-            const gpu::Buffer& unanswered, std::uint64_t invocations) {
-            const shared::RepelSettings push{chunk, tau, limiter, m_spacing, 0};
-            commands.dispatch(
-                kernel,
-                {{"tree_nodes", m_tree.nodes},
-                 {"tree_positions", m_tree.positions},
-                 {"tree_normals", m_tree.normals},
-                 {"tree_parameters", m_layers.parameters.is_empty() ? m_tree.positions : m_layers.parameters},
-                 {"parameter_reach", m_layers.reach2.is_empty() ? m_radii : m_layers.reach2},
-                 {"parameter_periods", m_layers.periods.is_empty() ? m_radii : m_layers.periods},
-                 {"constraint_along", is_constrained ? m_constraint.along : unused},
-                 {"constraint_across", is_constrained ? m_constraint.across : unused},
-                 {"radii", m_radii},
-                 {"moves", m_moves},
-                 {"unanswered", unanswered}},
-                push, invocations);
-        },
-        progress);
-    m_carry = 1.0f;
+    const GatherDispatch dispatch = [&](gpu::Commands& commands, const gpu::KernelSource& kernel,
+                                        const shared::GatherSettings& chunk, const GatherBuffers& buffers,
+                                        std::uint64_t invocations) {
+        push.gather = chunk;
+        commands.dispatch(kernel,
+                          {{"tree_nodes", m_tree.nodes},
+                           {"tree_positions", m_tree.positions},
+                           {"tree_normals", m_tree.normals},
+                           {"tree_parameters", m_layers.parameters.is_empty() ? m_tree.positions : m_layers.parameters},
+                           {"parameter_reach", m_layers.reach2.is_empty() ? m_radii : m_layers.reach2},
+                           {"parameter_periods", m_layers.periods.is_empty() ? m_radii : m_layers.periods},
+                           {"constraint_along", is_constrained ? m_constraint.along : unused},
+                           {"constraint_across", is_constrained ? m_constraint.across : unused},
+                           {"lists", is_listed ? m_lists.entries : unused},
+                           {"list_states", is_listed ? m_lists.states : unused},
+                           {"list_counts", is_listed ? m_lists.counts : unused},
+                           {"radii", m_radii},
+                           {"moves", m_moves},
+                           {"singles", buffers.singles},
+                           {"unanswered", buffers.unanswered}},
+                          push, invocations);
+    };
+    if (is_listed) {
+        // A list that does not come out right (very many photons in one place): the step is made exactly.
+        if (!gather_side_by_side(m_device, m_tree, "relax/repel_listed.comp", defines, push.gather, STAGE, dispatch,
+                                 progress))
+            repel_by(RadiusSearch::exact, push, progress);
+        return;
+    }
+    const char* kernel = "relax/repel_photons.comp";
+    if (try_gather(m_device, m_tree, kernel, defines, push.gather, STAGE, dispatch, progress))
+        return;
+    // Photons that flew far stretch the boxes they stand in: the tree is built anew about where they are now.
+    reorder(progress);
+    run_gather(m_device, m_tree, kernel, defines, push.gather, STAGE, dispatch, progress);
+}
+
+// Builds the tree anew and brings all that is kept in its order along.
+void Relaxation::reorder(const Progress& progress) {
+    const std::uint64_t count = m_photons.count;
+    PhotonMap present;
+    present.count = count;
+    present.position_emitter = gpu::make_buffer(m_device, m_tree.positions.read<glm::vec4>(count), "photon positions");
+    present.normal_index = gpu::make_buffer(m_device, m_tree.normals.read<glm::vec4>(count), "photon normals");
+    const std::vector<glm::vec4> old = m_tree.positions.read<glm::vec4>(count);
+    KdTree tree = build_tree(m_device, present, progress);
+    std::vector<glm::vec4> positions = tree.positions.read<glm::vec4>(count);
+    std::vector<std::uint32_t> from(count); // the old place of each photon
+    for (std::size_t at = 0; at < count; ++at) {
+        from[at] = std::bit_cast<std::uint32_t>(positions[at].w);
+        positions[at].w = old[from[at]].w;
+    }
+    tree.positions.upload(positions.data(), count * sizeof(glm::vec4));
+    const auto bring = [&]<class T>(gpu::Buffer& buffer, std::size_t width, T) {
+        if (buffer.is_empty())
+            return;
+        const std::vector<T> rows = buffer.read<T>(count * width);
+        std::vector<T> brought(count * width);
+        for (std::size_t at = 0; at < count; ++at)
+            std::copy_n(&rows[from[at] * width], width, &brought[at * width]);
+        buffer.upload(brought.data(), brought.size() * sizeof(T));
+    };
+    bring(m_tree.normals, 1, glm::vec4());
+    std::swap(tree.normals, m_tree.normals);
+    m_tree = std::move(tree);
+    for (gpu::Buffer* rows : {&m_start, &m_moves, &m_constraint.along, &m_constraint.across, &m_constraint.offsets,
+                              &m_constraint.member_radii})
+        bring(*rows, 1, glm::vec4());
+    bring(m_radii, 1, float());
+    bring(m_triangles, 1, std::uint32_t());
+    bring(m_layers.reach2, 1, float());
+    if (m_photons.parameters)
+        bring(m_layers.parameters, m_photons.parameters->count_rows(), glm::vec4());
+    if (m_lists.size > 0)
+        m_lists = make_lists(m_device, count, m_settings.neighbors);
 }
 
 void Relaxation::move(const Progress& progress) {

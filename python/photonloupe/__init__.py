@@ -33,6 +33,7 @@ from photonloupe.relaxing import Relaxation
 from photonloupe.rendering import render
 from photonloupe.scene import Scene, load_scene
 from photonloupe.tracing import trace_photons
+from photonloupe.trajectory import find_primal_trajectory
 
 __all__ = [
     "ArgumentError",
@@ -43,18 +44,19 @@ __all__ = [
     "DeviceMemoryError",
     "FileFormatError",
     "Image",
+    "ImageDifference",
     "Isotropy",
     "OptimalBeta",
-    "Relaxation",
-    "ImageDifference",
     "PhotonLoupeError",
     "PhotonMap",
+    "Relaxation",
     "Scene",
     "SceneError",
     "ScriptError",
     "__version__",
     "compare_images",
     "devices",
+    "find_primal_trajectory",
     "load_image",
     "load_photons",
     "load_scene",

@@ -52,9 +52,7 @@ class OptimalBeta(float):
     t_beta: float
 
 
-def optimal_beta(
-    photons: PhotonMap, k: int = 100, clip: float = 0.05, *, progress: ProgressLike = None
-) -> OptimalBeta:
+def optimal_beta(photons: PhotonMap, k: int = 100, clip: float = 0.05, *, progress: ProgressLike = None) -> OptimalBeta:
     """Find the β that clips the neighborhoods of only a share `clip` of the photons ([SJL15] section 5.2, eqs. 5, 6).
 
     Parameters

@@ -31,6 +31,7 @@ def load_photons(path: str | os.PathLike[str], *, device: Device | int | str | N
         If the folder is missing, is not a photon map, or an array in it is damaged; the message names which.
     """
     columns, meta = storage.read_map(path)
+    values = columns.get("parameters")
     return PhotonMap(
         columns,
         emitted=meta["emitted"],
@@ -38,6 +39,6 @@ def load_photons(path: str | os.PathLike[str], *, device: Device | int | str | N
         report=meta["report"],
         provenance=meta["provenance"],
         device=device,
-        parameters=read_parameters(meta.get("parameters", []), columns["parameters"]) if "parameters" in columns else (),
+        parameters=() if values is None else read_parameters(meta.get("parameters", []), values),
         relaxation=meta.get("relaxation"),
     )

@@ -97,9 +97,8 @@ def _check_bounds(bounds: ArrayLike | None, columns: NDArray[np.float32]) -> lis
     if given.shape != (columns.shape[1], 2):
         raise ArgumentError(f"bounds must have shape ({columns.shape[1]}, 2), not {given.shape}")
     limits = []
-    for i, (low, high) in enumerate(given):
-        low = check_number(f"bounds[{i}][0]", low, -_LARGEST, _LARGEST)
-        high = check_number(f"bounds[{i}][1]", high, -_LARGEST, _LARGEST)
+    for i, pair in enumerate(given):
+        low, high = (check_number(f"bounds[{i}][{j}]", bound, -_LARGEST, _LARGEST) for j, bound in enumerate(pair))
         if high < low:
             raise ArgumentError(f"bounds[{i}] runs from {low:g} down to {high:g}; the upper bound comes second")
         limits.append((low, high))

@@ -154,7 +154,7 @@ class PhotonColumns:
     @property
     def parameters_set(self) -> NDArray[np.bool_]:
         """Whether a photon has all its parameters, (n,); one without takes no part in parameter space."""
-        return ~np.isnan(self.parameters).any(axis=1)
+        return np.all(~np.isnan(self.parameters), axis=1)
 
     @property
     def constraint_basis(self) -> NDArray[np.float32]:

@@ -14,14 +14,15 @@ from photonloupe import _engine, exporting, queries, storage
 from photonloupe.checks import check_count, check_rows
 from photonloupe.columns import PATH_NAMES, PHOTON_COLUMNS, STATE_COLUMNS, Columns, check_columns
 from photonloupe.device import Device, open_device
-from photonloupe.errors import ArgumentError, PhotonLoupeError
+from photonloupe.errors import ArgumentError
 from photonloupe.nearest import find_neighbors
 from photonloupe.parameters import Parameter, describe_parameters
 from photonloupe.paths import find_traced_rows, gather_paths, match_signature, read_path_columns, trace_paths
 from photonloupe.photon_columns import Float3, PhotonColumns
 from photonloupe.progress import ProgressLike
+from photonloupe.provenance import reload_scene
 from photonloupe.relaxing import RelaxKeywords, relax_photons
-from photonloupe.scene import Scene, load_scene
+from photonloupe.scene import Scene
 
 if TYPE_CHECKING:
     import pandas
@@ -202,13 +203,13 @@ class PhotonMap(PhotonColumns):
         ArgumentError
             If an id is not a photon, a mask is not n long, or not exactly one of the two is given.
         """
-        if (ids is None) == (signature is None):
-            raise ArgumentError("select takes either a mask or ids, or signature=")
-        if signature is not None:
+        if signature is not None and ids is None:
             self._record_paths()
             rows = match_signature(self._columns, signature)
-        else:
+        elif ids is not None and signature is None:
             rows = check_rows(ids, len(self))
+        else:
+            raise ArgumentError("select takes either a mask or ids, or signature=")
         kept = [column.name for column in (*PHOTON_COLUMNS, *STATE_COLUMNS) if column.name in self._columns]
         columns = {name: self._columns[name][rows] for name in kept}
         columns.update(gather_paths(self._columns, rows))
@@ -279,9 +280,7 @@ class PhotonMap(PhotonColumns):
         >>> photons.neighbors([1], 3)[0].tolist()
         [[0, 2, -1]]
         """
-        return find_neighbors(
-            self, points, k, space=space, beta=beta, center=center, ranges=ranges, progress=progress
-        )
+        return find_neighbors(self, points, k, space=space, beta=beta, center=center, ranges=ranges, progress=progress)
 
     def irradiance(
         self,
@@ -459,9 +458,7 @@ class PhotonMap(PhotonColumns):
         """Return the scene whose surfaces the photons lie on; None for a map from arrays without one."""
         return self._find_scene() if self._scene is not None or self._settings else None
 
-    def replace_positions(
-        self, native: _engine.PhotonMap, state: Columns, relaxation: Mapping[str, Any]
-    ) -> PhotonMap:
+    def replace_positions(self, native: _engine.PhotonMap, state: Columns, relaxation: Mapping[str, Any]) -> PhotonMap:
         """Return this map with the photons where a relaxation put them; paths keep their traced end points."""
         columns: Columns = {column.name: np.asarray(getattr(native, column.name)) for column in PHOTON_COLUMNS}
         kept = ("parameters", *(name for name in PATH_NAMES))
@@ -485,16 +482,9 @@ class PhotonMap(PhotonColumns):
 
     def _find_scene(self) -> Scene:
         """Return the scene the map was traced in, loading it again if its file is unchanged."""
-        if self._scene is not None:
-            return self._scene
-        path = self._provenance.get("scene_path")
-        if not path or not self._settings:
-            raise PhotonLoupeError("this map was not traced here, so paths that it lacks cannot be recorded")
-        scene = load_scene(path)
-        if scene.hash != self._provenance.get("scene_hash"):
-            raise PhotonLoupeError(f"{path} has changed since this map was traced; trace it anew to have its paths")
-        self._scene = scene
-        return scene
+        if self._scene is None:
+            self._scene = reload_scene(self._provenance if self._settings else {})
+        return self._scene
 
     def _record_paths(self) -> None:
         if "path_offsets" in self._columns:

@@ -9,7 +9,8 @@ from typing import Any
 
 from photonloupe import _engine
 from photonloupe.device import Device
-from photonloupe.scene import Scene
+from photonloupe.errors import PhotonLoupeError
+from photonloupe.scene import Scene, load_scene
 
 # Marks our entries among those other programs put into the same header.
 _PREFIX = "photonloupe."
@@ -27,6 +28,23 @@ def describe_origin(device: Device | None, scene: Scene | None, settings: Mappin
         origin["scene_hash"] = scene.hash
     origin["settings"] = dict(settings)
     return origin
+
+
+def reload_scene(provenance: Mapping[str, Any]) -> Scene:
+    """Load the scene that a map was traced in once more.
+
+    Raises
+    ------
+    PhotonLoupeError
+        If the provenance names none, or its file is gone or has changed.
+    """
+    path = provenance.get("scene_path")
+    if not path:
+        raise PhotonLoupeError("this map was not traced here, so paths that it lacks cannot be recorded")
+    scene = load_scene(path)
+    if scene.hash != provenance.get("scene_hash"):
+        raise PhotonLoupeError(f"{path} has changed since this map was traced; trace it anew to have its paths")
+    return scene
 
 
 def encode_attributes(provenance: Mapping[str, Any]) -> dict[str, str]:

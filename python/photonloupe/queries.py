@@ -10,9 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from photonloupe import _engine
 from photonloupe.checks import check_choice, check_count, check_vectors
-from photonloupe.nearest import MAX_NEIGHBORS
 from photonloupe.device import Device
 from photonloupe.errors import ArgumentError
+from photonloupe.nearest import MAX_NEIGHBORS
 from photonloupe.progress import ProgressLike, follow_progress
 
 KERNELS = ("epanechnikov", "disc", "cone", "gaussian")

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 SPACES = ("world", "parameter")
 DESCRIPTORS = ("none", "gradient", "pca", "tensor", "split")
-SEARCHES = ("exact", "carried")
+SEARCHES = ("exact", "listed")
 SURFACES = ("auto", "tangent")
 
 MAX_STEPS = 10_000

@@ -89,6 +89,8 @@ def render(
     provenance = describe_origin(opened, scene, settings)
     if photons is not None:
         provenance["photons"] = {"stored": len(photons), "emitted": photons.emitted, "settings": photons.settings}
+        if photons.relaxation:
+            provenance["photons"]["relaxation"] = photons.relaxation["settings"]
     return Image(pixels, provenance=provenance)
 
 

@@ -10,18 +10,16 @@ void clear_sums() {}
 void accumulate(Candidate other, float weight) {}
 
 #include "photons/gather.glsl"
+#include "photons/each_photon.glsl"
 #include "photons/count_coincident.glsl"
 #pragma binding writeonly float parameter_radii2
-#pragma binding writeonly uint unanswered
 
 layout(push_constant) uniform Push { GatherSettings settings; };
 
 void main() {
-    uint first = gl_WorkGroupID.x * WIDTH * settings.batches;
-    for (uint batch = 0u; batch < settings.batches; ++batch) {
-        uint turn = first + batch * WIDTH + LANE;
-        bool has_photon = turn < settings.count;
-        uint position = settings.first + min(turn, settings.count - 1u);
+    for (uint batch = 0u; batch < BATCH_COUNT(settings); ++batch) {
+        uint position;
+        bool has_photon = take_turn(settings, batch, position);
         take_photon(position, settings.period, settings.flatness);
         uint k = settings.k + 1u;
         float guess2 = guess_radius2(settings.photon_count, settings.leaf_level, position, settings.k);
@@ -32,7 +30,7 @@ void main() {
         float r2 = coincide ? 0.0 : (has_all ? my_gathered.r2 : INFINITY);
         if (has_photon) {
             parameter_radii2[my_photon.photon] = am_unset ? INFINITY : r2;
-            if (!has_turns_left()) unanswered[0] = 1u;
         }
+        report_turn(has_photon, has_turns_left(), position);
     }
 }

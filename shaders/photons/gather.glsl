@@ -12,23 +12,22 @@
 // void accumulate(Candidate other, float weight) and void clear_sums().
 // Defines: SHELL_SIZE (a power of two), SORT_NETWORK (its comparators EXCHANGE(i, j)), LOAD_SHELL (its values).
 #include "photons/visit_tiles.glsl"
+#include "photons/flagged.glsl"
 
-// Candidates whose shell flags share a word.
-#define SPAN min(WIDTH, 16u)
-const uint SPANS_PER_LEAF = 4u; // of TREE_LEAF_PHOTONS, narrowest subgroups of 8
-const uint SPAN_SHIFT = 16u;
 // A bracket holds this share of the shell at first, so that most photons need one pass.
 const float FIRST_FILL = 0.35;
 const float NEXT_FILL = 0.3;
 // Passes after which the bracket is halved bit by bit: 32 of those always end.
 const uint PATIENCE = 6u;
-const uint LARGEST_PASS_COUNT = 48u;
+const uint LARGEST_PASS_COUNT = 64u;
+// A lane that has met more than this of what it seeks has reached too far and gives the pass up: beside a crowd an
+// outlier's ball would take in all of it.
+const uint CROWD_FACTOR = 8u;
+const uint CROWD_BASE = 256u;
 // Where nothing is known, the first radius tried, as a share of the largest.
 const float SMALLEST_SHARE = 1e-12;
 
-shared uint span_first[LEAF_LIST_SIZE * SPANS_PER_LEAF];                      // tree position of a span
-shared uint shell_words[LEAF_LIST_SIZE * SPANS_PER_LEAF * gl_WorkGroupSize.x]; // flags | span << SPAN_SHIFT
-shared uint shell_places[SHELL_SIZE * gl_WorkGroupSize.x];                    // tree positions
+shared uint shell_places[SHELL_SIZE * gl_WorkGroupSize.x]; // tree positions
 shared float shell_measures[SHELL_SIZE * gl_WorkGroupSize.x];
 
 // One lane's search; counts include the photon itself.
@@ -38,7 +37,6 @@ struct Search {
     float below, above;              // known: fewer than wanted reach `below`, as many reach `above`
     uint below_count, above_count;
     uint lo_count, hi_count;         // of this pass
-    uint word_count;                 // spans with a flag
     uint shell_count;
 };
 
@@ -52,7 +50,7 @@ struct Gathered {
 
 Search my_search;
 Gathered my_gathered;
-uint my_span; // spans visited since the shell was collected
+bool is_cut_short; // the lane gave the last pass up: its counts are too low
 uint map_size; // photons
 
 void open_pass(bool searching, float limit) {
@@ -68,7 +66,7 @@ void open_pass(bool searching, float limit) {
 }
 
 // One span of candidates: those up to lo are summed, those up to hi flagged.
-void stream_span(Candidate mine, uint lane0, uint span) {
+uint stream_span(Candidate mine, uint lane0) {
     uint flags = 0u;
     for (uint base = 0u; base < SPAN; base += 8u) {
 #define TEST(c) { Candidate other = share_candidate(mine, lane0 + base + c); \
@@ -80,71 +78,58 @@ void stream_span(Candidate mine, uint lane0, uint span) {
         flags |= reached && !inside ? 1u << (base + c) : 0u; }
         TEST(0u) TEST(1u) TEST(2u) TEST(3u) TEST(4u) TEST(5u) TEST(6u) TEST(7u)
     }
-    shell_words[my_search.word_count * WIDTH + LANE] = flags | span << SPAN_SHIFT;
-    my_search.word_count += uint(flags != 0u);
     my_search.hi_count += bitCount(flags);
+    return flags;
 }
 
 void visit_tile(uint next, uint end) {
     uint position = next + LANE;
     Candidate mine = load_candidate(min(position, map_size - 1u), position < end);
-    for (uint lane0 = 0u; lane0 < min(WIDTH, TREE_LEAF_PHOTONS); lane0 += SPAN) {
-        if (LANE == 0u) span_first[my_span] = next + lane0;
-        stream_span(mine, lane0, my_span);
-        ++my_span;
-    }
+    for (uint lane0 = 0u; lane0 < min(WIDTH, TREE_LEAF_PHOTONS); lane0 += SPAN)
+        store_flags(stream_span(mine, lane0), next + lane0);
 }
 
 // Moves what was flagged to the shell, as far as it fits.
-void collect_shell() {
-    uint slot = 0u;
-    uint word = shell_words[LANE];
-    uint flags = my_search.word_count > 0u ? word & 0xffffu : 0u;
-    bool goes_on = subgroupAny(flags != 0u);
-    while (goes_on) {
-        ++turns;
-        bool has = flags != 0u;
-        uint place = span_first[word >> SPAN_SHIFT] + uint(findLSB(has ? flags : 1u));
-        place = has ? place : 0u; // words nobody wrote name no span
-        float measure = measure_candidate(load_candidate(place, true));
-        uint at = min(my_search.shell_count, SHELL_SIZE - 1u) * WIDTH + LANE;
-        if (has && my_search.shell_count < SHELL_SIZE) {
-            shell_places[at] = place;
-            shell_measures[at] = measure;
-        }
-        my_search.shell_count += uint(has);
-        flags &= flags - 1u;
-        if (flags == 0u) {
-            ++slot;
-            bool more = slot < my_search.word_count;
-            word = shell_words[(more ? slot : 0u) * WIDTH + LANE];
-            flags = more ? word & 0xffffu : 0u;
-        }
-        goes_on = subgroupAny(flags != 0u);
+void take_flagged(bool has, uint position) {
+    float measure = measure_candidate(load_candidate(position, true));
+    if (has && my_search.shell_count < SHELL_SIZE) {
+        uint at = my_search.shell_count * WIDTH + LANE;
+        shell_places[at] = position;
+        shell_measures[at] = measure;
     }
+    my_search.shell_count += uint(has);
 }
 
 // Walks the tree once for the lanes that search.
-void run_pass(bool searching, uint photon_count, uint leaf_level, float limit) {
+void run_pass(bool searching, uint wanted, uint photon_count, uint leaf_level, float limit) {
     // Lanes that are through accept nothing more; their sums and shells stay.
     Search kept = my_search;
     open_pass(searching, limit);
-    if (!searching) {
-        my_search.lo = -1.0;
-        my_search.hi = -1.0;
-    }
+    float lo = my_search.lo, hi = my_search.hi;
+    bool accepts = searching;
+    is_cut_short = false;
     uint depth = leaf_level == 0u ? 0u : 1u;
     uint leaf_count = leaf_level == 0u ? 1u : 0u;
     start_walk();
     do {
+        my_search.lo = accepts ? lo : -1.0;
+        my_search.hi = accepts ? hi : -1.0;
         walk_tree(leaf_level, depth, leaf_count);
-        my_span = 0u;
-        my_search.word_count = 0u;
+        begin_flags();
         visit_leaves(leaf_count, photon_count, leaf_level);
-        collect_shell();
+        bool is_crowded = my_search.lo_count + my_search.hi_count > CROWD_FACTOR * wanted + CROWD_BASE;
+        if (accepts && is_crowded && depth > 0u) {
+            accepts = false;
+            is_cut_short = true;
+            my_word_count = 0u; // nobody will rank them
+        }
+        visit_flagged();
+        set_batch(accepts, hi);
         leaf_count = 0u;
         ++turns;
-    } while (depth > 0u && has_turns_left());
+    } while (depth > 0u && subgroupAny(accepts) && has_turns_left());
+    my_search.lo = lo;
+    my_search.hi = hi;
     my_search.hi_count += my_search.lo_count;
     if (!searching) my_search = kept;
 }
@@ -152,7 +137,7 @@ void run_pass(bool searching, uint photon_count, uint leaf_level, float limit) {
 // What a pass that missed has taught.
 void learn_counts(uint wanted) {
     if (my_search.lo_count < wanted) {
-        if (my_search.lo >= my_search.below) {
+        if (my_search.lo >= my_search.below && !is_cut_short) {
             my_search.below = my_search.lo;
             my_search.below_count = my_search.lo_count;
         }
@@ -160,10 +145,10 @@ void learn_counts(uint wanted) {
         my_search.above = my_search.lo;
         my_search.above_count = my_search.lo_count;
     }
-    if (my_search.hi_count < wanted) {
+    if (my_search.hi_count < wanted && !is_cut_short) {
         my_search.below = my_search.hi;
         my_search.below_count = my_search.hi_count;
-    } else if (my_search.hi < my_search.above) {
+    } else if (my_search.hi_count >= wanted && my_search.hi < my_search.above) {
         my_search.above = my_search.hi;
         my_search.above_count = my_search.hi_count;
     }
@@ -186,7 +171,10 @@ void choose_bracket(uint wanted, uint pass, float limit) {
     } else if (is_open) {
         float scale = 1.4 * float(wanted) / float(max(my_search.below_count, 1u));
         my_search.lo = my_search.below;
-        my_search.hi = pass > PATIENCE ? limit : max(below * clamp(scale, 1.5, 16.0), limit * SMALLEST_SHARE);
+        my_search.hi = max(below * clamp(scale, 1.5, 16.0), limit * SMALLEST_SHARE);
+    } else if (is_cut_short) {
+        my_search.lo = my_search.below;
+        my_search.hi = below > 0.0 ? sqrt(below) * sqrt(my_search.above) : my_search.above / 16.0;
     } else if (my_search.above_count - my_search.below_count <= SHELL_SIZE) {
         my_search.lo = my_search.below;
         my_search.hi = my_search.above;
@@ -247,14 +235,14 @@ void gather_members(bool has_query, uint photon_count, uint leaf_level, uint k, 
     uint wanted = k + 2u; // the photon itself, k neighbours, and the one that gives the radius
     float limit = measure_limit();
     float reach = min(FIRST_FILL * float(SHELL_SIZE) / float(wanted), 0.6);
-    my_search = Search(has_query, guess2 * (1.0 - reach), guess2 * (1.0 + reach), -1.0, INFINITY, 0u, 0u, 0u, 0u, 0u, 0u);
+    my_search = Search(has_query, guess2 * (1.0 - reach), guess2 * (1.0 + reach), -1.0, INFINITY, 0u, 0u, 0u, 0u, 0u);
     uint rank = wanted; // fewer photons than wanted: the farthest's
     uint pass = 0u;
     map_size = photon_count;
     clear_sums();
     do {
-        run_pass(my_search.searching, photon_count, leaf_level, limit);
-        if (my_search.searching && my_search.hi >= limit && my_search.hi_count < rank) {
+        run_pass(my_search.searching, wanted, photon_count, leaf_level, limit);
+        if (my_search.searching && !is_cut_short && my_search.hi >= limit && my_search.hi_count < rank) {
             rank = my_search.hi_count;
             my_search.below = -1.0;
             my_search.below_count = 0u;
@@ -262,7 +250,7 @@ void gather_members(bool has_query, uint photon_count, uint leaf_level, uint k, 
         bool within = my_search.lo_count < rank && rank <= my_search.hi_count;
         // Nothing lies between neighboring floats: more than a shell of photons tie.
         bool is_narrow = floatBitsToUint(my_search.hi) - floatBitsToUint(max(my_search.lo, 0.0)) <= 1u;
-        bool found = within && (my_search.shell_count <= SHELL_SIZE || is_narrow);
+        bool found = within && !is_cut_short && (my_search.shell_count <= SHELL_SIZE || is_narrow);
         bool searched = my_search.searching;
         my_search.searching = searched && !found;
         if (my_search.searching) {

@@ -59,6 +59,11 @@ void set_period(vec4 space_period) {
 #define BOX_ROUNDING 1.0
 #endif
 
+Place share_place(Place p, uint lane) {
+    for (int axis = 0; axis < p.length(); ++axis) p[axis] = subgroupBroadcast(p[axis], lane);
+    return p;
+}
+
 // Squared distance between two boxes.
 float measure_box_gap(Place lo, Place hi, Place other_lo, Place other_hi) {
     Place gap = max(max(lo - other_hi, other_lo - hi), Place(0.0));

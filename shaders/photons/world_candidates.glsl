@@ -48,7 +48,7 @@ Candidate load_candidate(uint position, bool valid) {
 
 Candidate share_candidate(Candidate mine, uint lane) {
     Candidate c;
-    for (int axis = 0; axis < mine.place.length(); ++axis) c.place[axis] = subgroupBroadcast(mine.place[axis], lane);
+    c.place = share_place(mine.place, lane);
 #ifndef FLAT_AXES
     for (int axis = 0; axis < 3; ++axis) c.normal[axis] = subgroupBroadcast(mine.normal[axis], lane);
 #endif

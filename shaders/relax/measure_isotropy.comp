@@ -33,9 +33,9 @@ void accumulate(Candidate other, float weight) {
 }
 
 #include "photons/gather.glsl"
+#include "photons/each_photon.glsl"
 #include "photons/count_coincident.glsl"
 #pragma binding writeonly float axis_ratios
-#pragma binding writeonly uint unanswered
 
 layout(push_constant) uniform Push { GatherSettings settings; };
 
@@ -50,11 +50,9 @@ float find_ratio() {
 }
 
 void main() {
-    uint first = gl_WorkGroupID.x * WIDTH * settings.batches;
-    for (uint batch = 0u; batch < settings.batches; ++batch) {
-        uint turn = first + batch * WIDTH + LANE;
-        bool has_photon = turn < settings.count;
-        uint position = settings.first + min(turn, settings.count - 1u);
+    for (uint batch = 0u; batch < BATCH_COUNT(settings); ++batch) {
+        uint position;
+        bool has_photon = take_turn(settings, batch, position);
         take_photon(position, settings.period, settings.flatness);
         my_position = position_emitter_at(my_photon.photon).xyz;
         build_basis(normal_index[my_photon.photon].xyz, my_tangent, my_bitangent);
@@ -65,7 +63,7 @@ void main() {
         bool has_ratio = has_query && my_gathered.others > 1u && my_gathered.r2 > 0.0;
         if (has_photon) {
             axis_ratios[my_photon.photon] = has_ratio ? find_ratio() : uintBitsToFloat(0x7fc00000u);
-            if (!has_turns_left()) unanswered[0] = 1u;
         }
+        report_turn(has_photon, has_turns_left(), position);
     }
 }

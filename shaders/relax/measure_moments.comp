@@ -26,11 +26,11 @@ void accumulate(Candidate other, float weight) {
 }
 
 #include "photons/gather.glsl"
+#include "photons/each_photon.glsl"
 #include "relax/write_constraint.glsl"
 #pragma binding coherent float radii
 #pragma binding writeonly vec4 offsets
 #pragma binding writeonly vec4 member_radii
-#pragma binding writeonly uint unanswered
 
 layout(push_constant) uniform Push { DescribeSettings settings; };
 
@@ -66,11 +66,9 @@ void describe_photon(uint position) {
 }
 
 void main() {
-    uint first = gl_WorkGroupID.x * WIDTH * settings.gather.batches;
-    for (uint batch = 0u; batch < settings.gather.batches; ++batch) {
-        uint turn = first + batch * WIDTH + LANE;
-        bool has_photon = turn < settings.gather.count;
-        uint position = settings.gather.first + min(turn, settings.gather.count - 1u);
+    for (uint batch = 0u; batch < BATCH_COUNT(settings.gather); ++batch) {
+        uint position;
+        bool has_photon = take_turn(settings.gather, batch, position);
         take_photon(position, settings.gather.period, settings.gather.flatness);
         set_tangents();
         float guess2 = radii[position] * settings.gather.carry;
@@ -80,7 +78,7 @@ void main() {
         if (has_photon) {
             describe_photon(position);
             radii[position] = my_gathered.r2;
-            if (!has_turns_left()) unanswered[0] = 1u;
         }
+        report_turn(has_photon, has_turns_left(), position);
     }
 }

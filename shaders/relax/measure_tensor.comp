@@ -7,10 +7,10 @@
 #include "relax/tangent_plane.glsl"
 #include "relax/eigen.glsl"
 #include "photons/stream_members.glsl"
+#include "photons/each_photon.glsl"
 #include "relax/write_constraint.glsl"
 #pragma binding texel offsets
 #pragma binding readonly vec4 member_radii
-#pragma binding writeonly uint unanswered
 
 layout(push_constant) uniform Push { DescribeSettings settings; };
 
@@ -31,11 +31,9 @@ void meet_member(uint lane, float weight) {
 }
 
 void main() {
-    uint first = gl_WorkGroupID.x * WIDTH * settings.gather.batches;
-    for (uint batch = 0u; batch < settings.gather.batches; ++batch) {
-        uint turn = first + batch * WIDTH + LANE;
-        bool has_photon = turn < settings.gather.count;
-        uint position = settings.gather.first + min(turn, settings.gather.count - 1u);
+    for (uint batch = 0u; batch < BATCH_COUNT(settings.gather); ++batch) {
+        uint position;
+        bool has_photon = take_turn(settings.gather, batch, position);
         take_photon(position, settings.gather.period, settings.gather.flatness);
         set_tangents();
         vec4 found = member_radii[position];
@@ -50,7 +48,7 @@ void main() {
         if (has_photon) {
             write_constraint(position, own.w, project_vector(own.xyz), e.axis,
                              ramp(value, settings.free_at, settings.fixed_at));
-            if (!has_turns_left()) unanswered[0] = 1u;
         }
+        report_turn(has_photon, has_turns_left(), position);
     }
 }

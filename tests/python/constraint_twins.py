@@ -127,23 +127,21 @@ def hold_by_gradient(moments: Moments, ramp: tuple[float, float]) -> Hold:
     return Hold(normalize(moments.mean), clamp(moments.one_sidedness, ramp))
 
 
-def hold_by_pca(moments: Moments, places: int, ramp: tuple[float, float] | None) -> Hold:
+def hold_by_pca(moments: Moments, ramp: tuple[float, float]) -> Hold:
     """Across is the second eigenvector of the covariance, or the mean offset where one-sidedness says more."""
-    low, high = ramp or find_isotropy_ramp(places)
+    low, high = ramp
     _, vectors = find_axes(moments.covariance)
     thin = Hold(vectors[1] @ moments.axes, clamp(high - compute_isotropy(moments.covariance), (0.0, high - low)))
     edge = hold_by_gradient(moments, ONE_SIDED)
     return edge if edge.weight > thin.weight else thin
 
 
-def hold_by_tensor(
-    i: int, members: Members, slopes: Doubles, moments: Moments, ramp: tuple[float, float] | None
-) -> Hold:
+def hold_by_tensor(i: int, members: Members, slopes: Doubles, moments: Moments, ramp: tuple[float, float]) -> Hold:
     """Across is the first eigenvector of the structure tensor of the normalized offsets g (n, 3)."""
     own, others = moments.axes @ slopes[i], slopes[members.ids] @ moments.axes.T
     tensor = np.outer(own, own) + (members.weights[:, None] * others).T @ others
     (greatest, _), vectors = find_axes(tensor / (1.0 + members.places))
-    return Hold(vectors[0] @ moments.axes, clamp(greatest / (TENSOR_NOISE / members.places), ramp or TENSOR_RAMP))
+    return Hold(vectors[0] @ moments.axes, clamp(greatest / (TENSOR_NOISE / members.places), ramp))
 
 
 def weigh_gaps(gaps: Doubles, weights: Doubles) -> tuple[float, float]:
@@ -153,9 +151,7 @@ def weigh_gaps(gaps: Doubles, weights: Doubles) -> tuple[float, float]:
     return mean, deviation / mean if mean > 0.0 else 0.0
 
 
-def hold_by_split(
-    photons: Photons, i: int, members: Members, moments: Moments, ramp: tuple[float, float] | None
-) -> Hold:
+def hold_by_split(photons: Photons, i: int, members: Members, moments: Moments, ramp: tuple[float, float]) -> Hold:
     """Across is the mean offset; the split lies in the gap that leaves the evenest gaps on both its sides."""
     across = normalize(moments.mean)
     if across is None:
@@ -175,7 +171,7 @@ def hold_by_split(
     _, split, left, right = best
     homogeneity = min(left, right) / max(left, right) if max(left, right) > 0.0 else 1.0
     near = abs(middles[split]) <= 0.5 * (left + right)
-    return Hold(across, 1.0 - clamp(homogeneity, ramp or SPLIT_RAMP) if near else 0.0)
+    return Hold(across, 1.0 - clamp(homogeneity, ramp) if near else 0.0)
 
 
 def constrain(
@@ -194,6 +190,9 @@ def constrain(
     slopes = np.array(
         [m.mean / each.radius if each.radius > 0.0 else np.zeros(3) for m, each in zip(moments, members, strict=True)]
     ).reshape(count, 3)
+    # The isotropy's ramp is that of the number asked for, also where fewer were found.
+    usual = {"pca": find_isotropy_ramp(neighbors), "tensor": TENSOR_RAMP, "split": SPLIT_RAMP, "gradient": ONE_SIDED}
+    thresholds = ramp or usual[descriptor]
     basis, weights = np.zeros((count, 2, 3)), np.zeros((count, 2))
     for i in range(count):
         if members[i].places < FEWEST_NEIGHBORS:
@@ -201,7 +200,7 @@ def constrain(
         elif members[i].radius == 0.0:
             hold = FREE
         else:
-            hold = describe(descriptor, photons, i, members[i], moments[i], slopes, ramp)
+            hold = describe(descriptor, photons, i, members[i], moments[i], slopes, thresholds)
             weights[i, 1] = hold.weight
         basis[i] = build_basis(hold.across, moments[i], photons.normals[i])
     return Constraints(
@@ -219,17 +218,17 @@ def describe(
     members: Members,
     moments: Moments,
     slopes: Doubles,
-    ramp: tuple[float, float] | None,
+    ramp: tuple[float, float],
 ) -> Hold:
     """Ask one descriptor about one photon."""
     if descriptor == "pca":
-        return hold_by_pca(moments, members.places, ramp)
+        return hold_by_pca(moments, ramp)
     if descriptor == "tensor":
         return hold_by_tensor(i, members, slopes, moments, ramp)
     if descriptor == "split":
         return hold_by_split(photons, i, members, moments, ramp)
     if descriptor == "gradient":
-        return hold_by_gradient(moments, ramp or ONE_SIDED)
+        return hold_by_gradient(moments, ramp)
     raise ValueError(descriptor)
 
 

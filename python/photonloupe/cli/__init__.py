@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 from photonloupe import __version__
-from photonloupe.cli import compare, demo, doctor, render, trace
+from photonloupe.cli import compare, demo, doctor, relax, render, trace
 from photonloupe.cli.common import (
     EXIT_BAD_INPUT,
     EXIT_INTERNAL,
@@ -23,7 +23,7 @@ from photonloupe.cli.common import (
 )
 from photonloupe.errors import Cancelled, DeviceError, DeviceMemoryError, PhotonLoupeError
 
-_VERBS = (render, trace, compare, doctor, demo)
+_VERBS = (render, trace, relax, compare, doctor, demo)
 
 
 class _Parser(argparse.ArgumentParser):
@@ -37,7 +37,7 @@ def build_parser() -> argparse.ArgumentParser:
     """Build the parser of every verb."""
     parser = _Parser(
         prog="photonloupe",
-        description="Photon mapping as data: trace, render, inspect, compare.",
+        description="Photon mapping as data: trace, relax, render, inspect, compare.",
         epilog="Exit codes: 0 ok, 1 the answer is no, 2 wrong use or bad input, 3 no usable device, 4 out of memory.",
     )
     parser.add_argument("--version", action="version", version=f"photonloupe {__version__}")

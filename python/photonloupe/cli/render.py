@@ -6,7 +6,7 @@ from __future__ import annotations
 import argparse
 
 import photonloupe as pl
-from photonloupe.checks import check_number
+from photonloupe.checks import check_count, check_number
 from photonloupe.cli.common import (
     EXIT_OK,
     QUALITIES,
@@ -17,7 +17,9 @@ from photonloupe.cli.common import (
     print_result,
 )
 from photonloupe.device import open_device
+from photonloupe.errors import ArgumentError
 from photonloupe.image import MAX_EXPOSURE, check_image_path
+from photonloupe.relaxing import MAX_STEPS
 from photonloupe.rendering import MODES
 
 SUMMARY = "trace a scene and render it"
@@ -29,6 +31,14 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("scene", metavar="SCENE", help=".gltf or .glb")
     parser.add_argument("-o", "--output", required=True, metavar="FILE", help=".exr or .png")
     add_photon_options(parser, None)
+    parser.add_argument(
+        "--relax",
+        type=int,
+        nargs="?",
+        const=True,
+        metavar="STEPS",
+        help="relax the photons first, constrained in world space; STEPS: default the best known",
+    )
     parser.add_argument("--k", type=int, metavar="N", help="photons in an estimate, 1 to 1000")
     parser.add_argument("--width", type=int, default=512, metavar="N", help="pixels; default 512")
     parser.add_argument("--height", type=int, default=512, metavar="N", help="pixels; default 512")
@@ -49,6 +59,12 @@ def run(arguments: argparse.Namespace) -> int:
     """Run the verb."""
     output = check_image_path(arguments.output)
     exposure = check_number("--exposure", arguments.exposure, -MAX_EXPOSURE, MAX_EXPOSURE)
+    # Given without a number it is True.
+    steps = None if arguments.relax is True else arguments.relax
+    if steps is not None:
+        check_count("--relax", steps, 0, MAX_STEPS)
+    if arguments.relax is not None and arguments.mode == "direct":
+        raise ArgumentError("--mode direct uses no photons; leave --relax out, or choose another mode")
     quality = QUALITIES[arguments.quality]
     count = quality.photons if arguments.photons is None else arguments.photons
     watch = Stopwatch()
@@ -61,6 +77,9 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.mode != "direct":
         with watch.measure("trace"):
             photons = pl.trace_photons(scene, count, seed=arguments.seed, device=device, progress=progress)
+    if photons is not None and arguments.relax is not None:
+        with watch.measure("relax"):
+            photons = photons.relax(steps, constraint="world", progress=progress)
     with watch.measure("render"):
         image = pl.render(
             scene,
@@ -82,13 +101,15 @@ def run(arguments: argparse.Namespace) -> int:
         "width": image.width,
         "height": image.height,
         "photons": 0 if photons is None else len(photons),
+        "relaxation": None if photons is None else photons.relaxation.get("settings"),
         "seconds": watch.seconds,
         "provenance": image.provenance,
     }
+    relaxed = f", {result['relaxation']['steps']} steps of relaxation" if result["relaxation"] else ""
     spent = ", ".join(f"{step} {seconds:.2f}" for step, seconds in watch.seconds.items())
     print_result(
         arguments,
         result,
-        [f"{output}: {image.width} × {image.height}, {result['photons']:,} photons; seconds: {spent}"],
+        [f"{output}: {image.width} × {image.height}, {result['photons']:,} photons{relaxed}; seconds: {spent}"],
     )
     return EXIT_OK
