@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <sstream>
 
 #include "photons/query_tree.h"
 #include "photons/same_surface.h"
@@ -13,19 +12,24 @@
 namespace photonloupe {
 namespace {
 
-// Photons a bracket may leave to be ranked: see docs/methods.md for how it was chosen.
-constexpr std::uint32_t SHELL_SIZE = 32;
+// Photons kept in order above the bound (shaders/photons/find_radius.glsl). Each costs two operations for every
+// photon that streams by, a bound that misses costs a pass.
+constexpr std::uint32_t SMALLEST_SHELL = 4;
+constexpr std::uint32_t LARGEST_SHELL = 16;
 // Subgroups of photons a workgroup takes in turn: amortises its start.
 constexpr std::uint32_t BATCHES = 4;
 constexpr std::array<const char*, 3> PLANES{"yz", "xz", "xy"}; // without axis 0, 1, 2
 
-std::string write_shell_load() {
-    std::ostringstream text;
-    text << "LOAD_SHELL";
-    for (std::uint32_t i = 0; i < SHELL_SIZE; ++i)
-        text << " value[" << i << "] = " << i << "u < stored ? shell_measures[" << i
-             << "u * WIDTH + LANE] : INFINITY;";
-    return text.str();
+// Entries of the shell: all that are sought where that is few.
+std::uint32_t size_shell(std::uint32_t k) {
+    return std::clamp(k + 2, SMALLEST_SHELL, LARGEST_SHELL);
+}
+
+std::string write_each_kept(std::uint32_t size) {
+    std::string text = "EACH_KEPT(DO)";
+    for (std::uint32_t i = 0; i < size; ++i)
+        text += " DO(" + std::to_string(i) + ")";
+    return text;
 }
 
 } // namespace
@@ -58,16 +62,9 @@ std::vector<std::string> list_parameter_defines(const GatherShape& shape) {
     return defines;
 }
 
-std::vector<std::string> list_gather_defines(const GatherShape& shape) {
-    std::vector<std::string> defines = list_shape_defines(shape);
-    defines.push_back("SHELL_SIZE " + std::to_string(SHELL_SIZE) + "u");
-    defines.push_back("SORT_NETWORK " + write_sort_network(SHELL_SIZE));
-    defines.push_back(write_shell_load());
-    return defines;
-}
-
-std::vector<std::string> list_shape_defines(const GatherShape& shape) {
-    std::vector<std::string> defines;
+std::vector<std::string> list_gather_defines(const GatherShape& shape, std::uint32_t k) {
+    const std::uint32_t size = size_shell(k);
+    std::vector<std::string> defines{"SHELL_SIZE " + std::to_string(size) + "u", write_each_kept(size)};
     if (!shape.flat_axes.empty())
         defines.push_back("FLAT_AXES " + shape.flat_axes);
     if (shape.period != std::array<float, 3>{})
@@ -148,13 +145,6 @@ std::vector<std::uint32_t> find_unanswered(gpu::Device& device, const KdTree& tr
 }
 
 } // namespace
-
-bool gather_side_by_side(gpu::Device& device, const KdTree& tree, const std::string& kernel,
-                         const std::vector<std::string>& defines, const shared::GatherSettings& settings,
-                         const std::string& stage, const GatherDispatch& dispatch, const Progress& progress) {
-    return tree.count == 0 ||
-           find_unanswered(device, tree, {kernel, 0, defines, {}}, settings, stage, dispatch, progress).empty();
-}
 
 bool try_gather(gpu::Device& device, const KdTree& tree, const std::string& kernel,
                 const std::vector<std::string>& defines, const shared::GatherSettings& settings,

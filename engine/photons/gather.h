@@ -22,8 +22,8 @@ std::string find_flat_axes(const KdTree& tree);
 
 // What kernels that look at parameters are specialised to.
 std::vector<std::string> list_parameter_defines(const GatherShape& shape);
-std::vector<std::string> list_shape_defines(const GatherShape& shape); // of all that look at photons
-std::vector<std::string> list_gather_defines(const GatherShape& shape);
+// What kernels that find the radius of k neighbours are specialised to.
+std::vector<std::string> list_gather_defines(const GatherShape& shape, std::uint32_t k);
 
 shared::GatherSettings make_gather_settings(const KdTree& tree, const GatherShape& shape, std::uint32_t k);
 
@@ -37,12 +37,7 @@ struct GatherBuffers {
 using GatherDispatch = std::function<void(gpu::Commands&, const gpu::KernelSource&, const shared::GatherSettings&,
                                           const GatherBuffers&, std::uint64_t invocations)>;
 
-// Runs a kernel over all photons of the tree, in tree order; false if a workgroup's loop turns did not suffice.
-bool gather_side_by_side(gpu::Device& device, const KdTree& tree, const std::string& kernel,
-                         const std::vector<std::string>& defines, const shared::GatherSettings& settings,
-                         const std::string& stage, const GatherDispatch& dispatch, const Progress& progress);
-
-// The same; photons that a workgroup's loop turns do not suffice for
+// Runs a kernel over all photons of the tree, in tree order; photons that a workgroup's loop turns do not suffice for
 // are asked one by one in the end. False if that did not suffice either.
 bool try_gather(gpu::Device& device, const KdTree& tree, const std::string& kernel,
                 const std::vector<std::string>& defines, const shared::GatherSettings& settings,

@@ -160,7 +160,7 @@ gpu::Buffer find_parameter_radii2(gpu::Device& device, const PhotonMap& photons,
     shared::GatherSettings settings = make_gather_settings(parameter_tree.tree, parameter_tree.shape, k - 1);
     settings.flatness = parameter_tree.limit2;
     run_gather(
-        device, parameter_tree.tree, "photons/find_parameter_radius.comp", list_gather_defines(parameter_tree.shape),
+        device, parameter_tree.tree, "photons/find_parameter_radius.comp", list_gather_defines(parameter_tree.shape, k - 1),
         settings, STAGE,
         [&](gpu::Commands& commands, const gpu::KernelSource& kernel, const shared::GatherSettings& push,
             const GatherBuffers& buffers, std::uint64_t invocations) {

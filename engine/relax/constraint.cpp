@@ -5,9 +5,9 @@
 namespace photonloupe {
 namespace {
 
-std::vector<std::string> list_defines(const GatherShape& shape, Descriptor descriptor) {
-    std::vector<std::string> defines = list_gather_defines(shape);
-    defines.push_back("DESCRIPTOR " + std::to_string(static_cast<std::uint32_t>(descriptor)));
+std::vector<std::string> list_defines(const GatherShape& shape, const ConstraintSettings& settings) {
+    std::vector<std::string> defines = list_gather_defines(shape, settings.neighbors);
+    defines.push_back("DESCRIPTOR " + std::to_string(static_cast<std::uint32_t>(settings.descriptor)));
     return defines;
 }
 
@@ -23,7 +23,7 @@ Constraint measure_constraint(gpu::Device& device, const KdTree& tree, const Gat
     const gpu::Buffer& periods = layers.periods.is_empty() ? radii : layers.periods;
     const auto run = [&](const char* kernel, const auto& run_kernel) {
         run_kernel(
-            device, tree, kernel, list_defines(shape, settings.descriptor),
+            device, tree, kernel, list_defines(shape, settings),
             make_gather_settings(tree, shape, settings.neighbors), "measure constraint",
             [&](gpu::Commands& commands, const gpu::KernelSource& source, const shared::GatherSettings& chunk,
                 const GatherBuffers& buffers, std::uint64_t invocations) {

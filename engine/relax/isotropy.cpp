@@ -15,7 +15,7 @@ std::vector<float> measure_isotropy(gpu::Device& device, const PhotonMap& photon
     shared::GatherSettings settings = make_gather_settings(tree, parameter_tree.shape, k);
     settings.flatness = parameter_tree.limit2;
     run_gather(
-        device, tree, "relax/measure_isotropy.comp", list_gather_defines(parameter_tree.shape), settings,
+        device, tree, "relax/measure_isotropy.comp", list_gather_defines(parameter_tree.shape, k), settings,
         "measure isotropy",
         [&](gpu::Commands& commands, const gpu::KernelSource& kernel, const shared::GatherSettings& push,
             const GatherBuffers& buffers, std::uint64_t invocations) {

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "photons/query_tree.h"
 
 namespace photonloupe {
 namespace {
@@ -33,34 +32,6 @@ gpu::Buffer make_filled(gpu::Device& device, std::uint64_t bytes, const char* pu
     commands.fill(buffer, 0);
     commands.run();
     return buffer;
-}
-
-// Entries a list needs so that it lasts some steps: half as many again as the neighbours, and some.
-std::uint32_t size_lists(std::uint32_t neighbors) {
-    const std::uint32_t wanted = 2 * neighbors + 16;
-    return std::min((wanted + 7) / 8 * 8, 128u);
-}
-
-CandidateLists make_lists(gpu::Device& device, std::uint64_t photon_count, std::uint32_t neighbors) {
-    CandidateLists lists;
-    lists.size = size_lists(neighbors);
-    const std::uint64_t width = device.limits().subgroup_size;
-    const std::uint64_t slots = (photon_count + width - 1) / width * width;
-    lists.entries = gpu::Buffer(device, slots * lists.size * sizeof(std::uint32_t), "candidate lists");
-    lists.states = make_filled(device, photon_count * sizeof(glm::vec4), "candidate lists");
-    lists.counts = make_filled(device, photon_count * sizeof(std::uint32_t), "candidate lists");
-    return lists;
-}
-
-std::vector<std::string> list_list_defines(const GatherShape& shape, std::uint32_t size) {
-    std::vector<std::string> defines = list_shape_defines(shape);
-    std::string entries = "EACH_ENTRY(DO)";
-    for (std::uint32_t i = 0; i < size; ++i)
-        entries += " DO(" + std::to_string(i) + ")";
-    defines.push_back("LIST_SIZE " + std::to_string(size) + "u");
-    defines.push_back(entries);
-    defines.push_back("SORT_NETWORK " + write_sort_network(size));
-    return defines;
 }
 
 // What floats can tell apart at the largest coordinate of the map.
@@ -152,15 +123,9 @@ void Relaxation::repel(float tau, const Progress& progress) {
         m_settings.limit > 0 ? std::numbers::ln2_v<float> / (m_settings.limit * m_settings.limit) : 0.0f;
     shared::RepelSettings push{make_gather_settings(m_tree, m_shape, m_settings.neighbors), tau, limiter, m_spacing, 0};
     push.gather.carry = m_carry;
-    if (m_settings.search == RadiusSearch::listed && m_lists.size == 0)
-        m_lists = make_lists(m_device, m_photons.count, m_settings.neighbors);
-    repel_by(m_settings.search, push, progress);
-    m_carry = 1.0f;
-}
-
-void Relaxation::repel_by(RadiusSearch search, shared::RepelSettings push, const Progress& progress) {
-    const bool is_listed = search == RadiusSearch::listed;
-    std::vector<std::string> defines = is_listed ? list_list_defines(m_shape, m_lists.size) : list_gather_defines(m_shape);
+    std::vector<std::string> defines = list_gather_defines(m_shape, m_settings.neighbors);
+    if (m_settings.search == RadiusSearch::carried && m_step > 0) // the first step seeks its radii
+        defines.emplace_back("CARRIED");
     const bool is_constrained = m_settings.constraint.descriptor != Descriptor::none;
     if (is_constrained)
         defines.emplace_back("CONSTRAINED");
@@ -178,28 +143,20 @@ void Relaxation::repel_by(RadiusSearch search, shared::RepelSettings push, const
                            {"parameter_periods", m_layers.periods.is_empty() ? m_radii : m_layers.periods},
                            {"constraint_along", is_constrained ? m_constraint.along : unused},
                            {"constraint_across", is_constrained ? m_constraint.across : unused},
-                           {"lists", is_listed ? m_lists.entries : unused},
-                           {"list_states", is_listed ? m_lists.states : unused},
-                           {"list_counts", is_listed ? m_lists.counts : unused},
                            {"radii", m_radii},
                            {"moves", m_moves},
                            {"singles", buffers.singles},
                            {"unanswered", buffers.unanswered}},
                           push, invocations);
     };
-    if (is_listed) {
-        // A list that does not come out right (very many photons in one place): the step is made exactly.
-        if (!gather_side_by_side(m_device, m_tree, "relax/repel_listed.comp", defines, push.gather, STAGE, dispatch,
-                                 progress))
-            repel_by(RadiusSearch::exact, push, progress);
-        return;
-    }
     const char* kernel = "relax/repel_photons.comp";
-    if (try_gather(m_device, m_tree, kernel, defines, push.gather, STAGE, dispatch, progress))
+    m_carry = 1.0f;
+    const shared::GatherSettings gather = push.gather;
+    if (try_gather(m_device, m_tree, kernel, defines, gather, STAGE, dispatch, progress))
         return;
     // Photons that flew far stretch the boxes they stand in: the tree is built anew about where they are now.
     reorder(progress);
-    run_gather(m_device, m_tree, kernel, defines, push.gather, STAGE, dispatch, progress);
+    run_gather(m_device, m_tree, kernel, defines, gather, STAGE, dispatch, progress);
 }
 
 // Builds the tree anew and brings all that is kept in its order along.
@@ -238,8 +195,6 @@ void Relaxation::reorder(const Progress& progress) {
     bring(m_layers.reach2, 1, float());
     if (m_photons.parameters)
         bring(m_layers.parameters, m_photons.parameters->count_rows(), glm::vec4());
-    if (m_lists.size > 0)
-        m_lists = make_lists(m_device, count, m_settings.neighbors);
 }
 
 void Relaxation::move(const Progress& progress) {

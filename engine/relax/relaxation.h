@@ -39,12 +39,6 @@ struct RelaxedColumns {
     std::uint64_t off_surface_count = 0; // photons that moved in their tangent plane
 };
 
-// What each photon may meet for a few steps (relax/repel_listed.comp).
-struct CandidateLists {
-    std::uint32_t size = 0; // entries a photon
-    gpu::Buffer entries, states, counts;
-};
-
 class Relaxation {
 public:
     // Measures the constraint. Without a surface's scene photons move in their tangent planes.
@@ -63,7 +57,6 @@ private:
     void find_surface(const Progress& progress);
     void shift_photons();
     void repel(float tau, const Progress& progress);
-    void repel_by(RadiusSearch search, shared::RepelSettings push, const Progress& progress);
     void move(const Progress& progress);
     void reorder(const Progress& progress);
     StepReport report_step(float tau);
@@ -79,7 +72,6 @@ private:
     gpu::Buffer m_radii;    // squared, of the last query
     gpu::Buffer m_moves;    // xyz metres, w pressure
     gpu::Buffer m_triangles;
-    CandidateLists m_lists; // of the listed search
     Layers m_layers;        // of repulsion
     GatherShape m_shape;    // of repulsion
     Constraint m_constraint;

@@ -33,12 +33,9 @@ struct ConstraintSettings {
 };
 
 enum class RadiusSearch : std::uint32_t {
-    exact,  // the (K + 1)-th neighbour's distance
-    listed, // from lists of candidates that live for several steps; for at most LARGEST_LISTED neighbours
+    exact,   // the (K + 1)-th neighbour's distance
+    carried, // the radius of the step before, corrected by the count found in it
 };
-
-// Neighbours that lists have room for.
-inline constexpr std::uint32_t LARGEST_LISTED = 60;
 
 struct RelaxSettings {
     std::uint32_t steps = 20;

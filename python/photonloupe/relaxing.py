@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 SPACES = ("world", "parameter")
 DESCRIPTORS = ("none", "gradient", "pca", "tensor", "split")
-SEARCHES = ("exact", "listed")
+SEARCHES = ("exact", "carried")
 SURFACES = ("auto", "tangent")
 
 MAX_STEPS = 10_000

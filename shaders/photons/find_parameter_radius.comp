@@ -6,10 +6,7 @@
 #include "shared/prelude.glsl"
 #include "photons/parameter_candidates.glsl"
 
-void clear_sums() {}
-void accumulate(Candidate other, float weight) {}
-
-#include "photons/gather.glsl"
+#include "photons/find_radius.glsl"
 #include "photons/each_photon.glsl"
 #include "photons/count_coincident.glsl"
 #pragma binding writeonly float parameter_radii2
@@ -25,7 +22,7 @@ void main() {
         float guess2 = guess_radius2(settings.photon_count, settings.leaf_level, position, settings.k);
         bool coincide = has_coincident(guess2 == 0.0, position, settings.photon_count, k);
         bool has_query = has_photon && !am_unset && !coincide;
-        gather_members(has_query, settings.photon_count, settings.leaf_level, settings.k, guess2);
+        find_radius(has_query, settings.photon_count, settings.leaf_level, settings.k, guess2);
         bool has_all = has_query && my_gathered.others >= k;
         float r2 = coincide ? 0.0 : (has_all ? my_gathered.r2 : INFINITY);
         if (has_photon) {

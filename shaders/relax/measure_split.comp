@@ -24,7 +24,7 @@ float my_r2;
 uint listed;
 
 // Each lane looks at its own photon of the tile; those at just the radius are as good as the end there.
-void visit_tile(uint next, uint end) {
+void list_tile(uint next, uint end) {
     uint position = next + LANE;
     Candidate other = load_candidate(min(position, settings.gather.photon_count - 1u), position < end);
     Place d = find_offset(other);
@@ -35,6 +35,8 @@ void visit_tile(uint next, uint end) {
     if (is_member) signed_distances[at] = dot(my_direction, project_offset(d));
     listed += subgroupBallotBitCount(ballot);
 }
+
+DEFINE_VISIT(list_leaves, list_tile)
 
 // Bitonic sort of the list, padded to a power of two.
 uint sort_list(uint count) {
@@ -123,7 +125,7 @@ void list_neighbors(uint photon_count, uint leaf_level) {
     start_walk();
     do {
         walk_tree(leaf_level, depth, leaf_count);
-        visit_leaves(leaf_count, photon_count, leaf_level);
+        list_leaves(leaf_count, photon_count, leaf_level);
         leaf_count = 0u;
         ++turns;
     } while (depth > 0u && has_turns_left());

@@ -6,6 +6,11 @@
 #include "shared/relax.h"
 #include "relax/tangent_plane.glsl"
 #include "relax/eigen.glsl"
+void load_payload(uint position);
+void meet_payload(uint lane, float weight);
+void accumulate(Candidate other, float weight) {}
+
+#define HAS_PAYLOAD
 #include "photons/stream_members.glsl"
 #include "photons/each_photon.glsl"
 #include "relax/write_constraint.glsl"
@@ -22,7 +27,7 @@ vec3 tile_offset;
 
 void load_payload(uint position) { tile_offset = offsets_at(position).xyz; }
 
-void meet_member(uint lane, float weight) {
+void meet_payload(uint lane, float weight) {
     vec3 offset = vec3(subgroupBroadcast(tile_offset.x, lane), subgroupBroadcast(tile_offset.y, lane),
                        subgroupBroadcast(tile_offset.z, lane));
     vec2 g = project_vector(offset);

@@ -12,19 +12,47 @@
 #pragma binding coherent float radii
 #pragma binding writeonly vec4 moves
 
+// With CARRIED the radius of the step before serves again, corrected by the number of photons found within.
+#ifdef CARRIED
+const bool IS_CARRIED = true;
+#else
+const bool IS_CARRIED = false;
+#endif
+// Beyond this factor the count is off by so much that the radius is sought anew in the next step.
+const float LARGEST_MISS = 2.0;
+
+// Takes the members from the sums; returns the squared radius for the next step, 0 where it must be sought.
+float carry_radius(inout Reach reach) {
+    float found = member_sum - 1.0; // less the photon itself
+    float wanted = float(settings.gather.k);
+    reach.members = max(found, 1.0);
+    reach.others = found > 0.0 ? settings.gather.k : 0u;
+    bool is_near = found * LARGEST_MISS >= wanted && found <= wanted * LARGEST_MISS;
+    return is_near ? reach.r2 * (wanted + 0.5) / (found + 0.5) : 0.0;
+}
+
 void main() {
     for (uint batch = 0u; batch < BATCH_COUNT(settings.gather); ++batch) {
         uint position;
         bool has_photon = take_turn(settings.gather, batch, position);
         take_photon(position, settings.gather.period, settings.gather.flatness);
         float guess2 = radii[position] * settings.gather.carry;
+        bool is_known = IS_CARRIED && guess2 > 0.0;
         if (guess2 <= 0.0)
             guess2 = guess_radius2(settings.gather.photon_count, settings.gather.leaf_level, position, settings.gather.k);
-        gather_members(has_photon, settings.gather.photon_count, settings.gather.leaf_level, settings.gather.k, guess2);
-        vec4 move = find_move(position, Reach(my_gathered.r2, my_gathered.members, my_gathered.others));
+        find_radius(has_photon && !is_known, settings.gather.photon_count, settings.gather.leaf_level,
+                    settings.gather.k, guess2);
+        Reach reach = is_known ? Reach(guess2, 0.0, settings.gather.k)
+                               : Reach(my_gathered.r2, my_gathered.members, my_gathered.others);
+        clear_sums();
+        stream_members(has_photon, settings.gather.photon_count, settings.gather.leaf_level, reach.r2,
+                       is_known ? 0.0 : my_gathered.tie_weight);
+        float next2 = reach.r2;
+        if (is_known) next2 = carry_radius(reach);
+        vec4 move = find_move(position, reach);
         if (has_photon) {
             moves[position] = move;
-            radii[position] = my_gathered.r2;
+            radii[position] = next2;
         }
         report_turn(has_photon, has_turns_left(), position);
     }

@@ -13,11 +13,13 @@ layout(push_constant) uniform Push { RepelSettings settings; };
 Place near_sum;
 Place far_sum;
 float coincident_sum; // photons at just this place, this one among them
+float member_sum;
 
 void clear_sums() {
     near_sum = Place(0.0);
     far_sum = Place(0.0);
     coincident_sum = 0.0;
+    member_sum = 0.0;
 }
 
 void accumulate(Candidate other, float weight) {
@@ -27,6 +29,9 @@ void accumulate(Candidate other, float weight) {
     near_sum -= d * (apart ? weight / distance : 0.0);
     far_sum -= d * (weight * distance);
     coincident_sum += apart ? 0.0 : weight;
+#ifdef CARRIED
+    member_sum += weight;
+#endif
 }
 
 // What the sums came from.

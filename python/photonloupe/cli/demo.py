@@ -67,7 +67,7 @@ class _Way:
 _WAYS = (
     _Way("raw", "not relaxed", None),
     _Way("unconstrained", "relaxed without constraint", {"constraint": "world", "descriptor": "none"}),
-    _Way("world", "relaxed, constraint from all photons", {"constraint": "world"}),
+    _Way("world", "relaxed, constrained in world space", {"constraint": "world"}),
     _Way("parameter", "relaxed, parameter-aware", {"constraint": "parameter", "repel": "parameter"}),
 )
 
@@ -152,7 +152,10 @@ def _compare_relaxations(demo: _Demo) -> None:
     with watch.measure("all"):
         path = demo.folder / "relax.png"
         build_contact_sheet(sheet, columns=_COLUMNS, exposure=_COMPARED_EXPOSURE).save(path)
-    demo.note(path, f"the four side by side: {len(photons):,} photons, {_COMPARED_EMISSION} emission", watch)
+    what = (
+        f"the four side by side: {len(photons):,} photons, {_COMPARED_EMISSION} emission; the last keeps the inner band"
+    )
+    demo.note(path, what, watch)
 
 
 def _describe(way: _Way, photons: pl.PhotonMap) -> str:

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+// The radius of each photon of a batch, one a lane: the measure of the candidate of rank K + 1. There is no list of k
+// neighbours: what lies below a bound is counted as it streams by, and the few above it that are nearest (the shell)
+// are kept in order in registers. A bound that was wrong is moved by what was counted; the radius is exact whatever
+// bound was tried first. On processors without branches a register is far cheaper than shared memory.
+// A photon meets itself at measure 0 and counts.
+//
+// The kernel includes its candidates first (photons/world_candidates.glsl, photons/parameter_candidates.glsl): Place,
+// Candidate, my_place(), load_candidate, share_candidate, measure_candidate, measure_node_gap, measure_limit.
+// Defines: SHELL_SIZE, and EACH_KEPT(DO), the calls DO(0) … DO(SHELL_SIZE - 1): what is not indexed by a constant
+// would lie in memory.
+#include "photons/visit_tiles.glsl"
+
+// Of the shell, this share lies below the radius that was guessed.
+const float FIRST_FILL = 0.5;
+// Passes after which the bound is halved bit by bit: 32 of those always end.
+const uint PATIENCE = 6u;
+const uint LARGEST_PASS_COUNT = 64u;
+// Where nothing is known, the first radius tried, as a share of the largest.
+const float SMALLEST_SHARE = 1e-12;
+// A lane that has met more than this of what it seeks has reached too far and gives the pass up: beside a crowd an
+// outlier's ball would take in all of it.
+const uint CROWD_FACTOR = 8u;
+const uint CROWD_BASE = 256u;
+
+// One lane's search; counts include the photon itself.
+struct Search {
+    bool searching;
+    float lo, hi;                    // measures up to lo are counted, those up to hi are all met
+    float below, above;              // known: fewer than wanted reach `below`, as many reach `above`
+    uint below_count, above_count;
+    uint lo_count, hi_count;         // of this pass
+};
+
+// What was found.
+struct Gathered {
+    float r2;         // squared radius
+    float members;    // K': neighbours counted
+    float tie_weight; // of photons at just the radius, who share what is left of the K
+    uint others;      // photons the radius was found from, up to K + 1
+};
+
+Search my_search;
+Gathered my_gathered;
+// The least measures above lo, ascending, as bits: of floats that are not negative these are in the same order, and
+// whole numbers have a least and a greatest without a second thought for NaN.
+uint shell[SHELL_SIZE];
+const uint NO_MEASURE = 0x7f800000u;
+bool is_cut_short;       // the lane gave the last pass up: its counts are too low
+uint map_size;           // photons
+
+#define KEEP(i) { uint smaller = min(shell[i], rest); rest = max(shell[i], rest); shell[i] = smaller; }
+
+void count_tile(uint next, uint end) {
+    uint position = next + LANE;
+    Candidate mine = load_candidate(min(position, map_size - 1u), position < end);
+    for (uint base = 0u; base < min(WIDTH, TREE_LEAF_PHOTONS); base += 8u) {
+#define COUNT(c) { float measure = measure_candidate(share_candidate(mine, base + c)); \
+        bool inside = measure <= my_search.lo; \
+        my_search.lo_count += uint(inside); \
+        my_search.hi_count += uint(measure <= my_search.hi); \
+        uint rest = inside ? NO_MEASURE : floatBitsToUint(measure); \
+        EACH_KEPT(KEEP) }
+        COUNT(0u) COUNT(1u) COUNT(2u) COUNT(3u) COUNT(4u) COUNT(5u) COUNT(6u) COUNT(7u)
+    }
+}
+
+DEFINE_VISIT(count_leaves, count_tile)
+
+// Walks the tree once for the lanes that search.
+void count_pass(bool searching, uint wanted, uint photon_count, uint leaf_level) {
+    float lo = my_search.lo, hi = my_search.hi;
+    Search kept = my_search;
+    my_search.lo_count = 0u;
+    my_search.hi_count = 0u;
+#define CLEAR(i) shell[i] = NO_MEASURE;
+    EACH_KEPT(CLEAR)
+    bool accepts = searching;
+    is_cut_short = false;
+    set_batch(searching, hi);
+    uint depth = leaf_level == 0u ? 0u : 1u;
+    uint leaf_count = leaf_level == 0u ? 1u : 0u;
+    start_walk();
+    do {
+        // Lanes that accept nothing more put nothing in order.
+        my_search.lo = accepts ? lo : INFINITY;
+        walk_tree(leaf_level, depth, leaf_count);
+        count_leaves(leaf_count, photon_count, leaf_level);
+        bool is_crowded = my_search.hi_count > CROWD_FACTOR * wanted + CROWD_BASE;
+        if (accepts && is_crowded && depth > 0u) {
+            accepts = false;
+            is_cut_short = true;
+        }
+        set_batch(accepts, hi);
+        leaf_count = 0u;
+        ++turns;
+    } while (depth > 0u && subgroupAny(accepts) && has_turns_left());
+    my_search.lo = lo;
+    if (!searching) my_search = kept;
+}
+
+// The shell's entry at a rank that counts from 1.
+float pick_shell(uint rank) {
+    uint picked = NO_MEASURE;
+#define PICK(i) picked = uint(i) + 1u == rank ? shell[i] : picked;
+    EACH_KEPT(PICK)
+    return uintBitsToFloat(picked);
+}
+
+void settle_radius(float r2, uint rank, uint nearer, uint equal) {
+    // The photon itself stands among the nearer ones, or, where all coincide, among the equal.
+    float taken = float(nearer) - (r2 > 0.0 ? 1.0 : 0.0);
+    float sharing = float(equal) - (r2 > 0.0 ? 0.0 : 1.0);
+    float members = max(float(rank) - 2.0, 1.0); // the other of two gives the radius and is a member
+    my_gathered = Gathered(r2, members, sharing > 0.0 ? (members - taken) / sharing : 0.0, rank - 1u);
+    my_search.searching = false;
+}
+
+// Takes the radius from the shell if it is there. More photons than the shell holds may tie at it: then they are
+// counted in another pass, with the radius itself as the bound.
+void try_shell(uint rank) {
+    float r2 = pick_shell(rank - my_search.lo_count);
+    uint bits = floatBitsToUint(r2);
+    uint nearer = my_search.lo_count, equal = 0u;
+#define RANK_KEPT(i) nearer += uint(shell[i] < bits); equal += uint(shell[i] == bits);
+    EACH_KEPT(RANK_KEPT)
+    bool may_overflow = shell[SHELL_SIZE - 1u] == bits;
+    if (!may_overflow) {
+        settle_radius(r2, rank, nearer, equal);
+    } else {
+        my_search.below = r2; // not truly below: the next pass counts up to just here
+        my_search.below_count = nearer;
+        my_search.lo = r2;
+        my_search.hi = r2;
+        my_search.above = -1.0;
+    }
+}
+
+// What a pass that missed has taught.
+void learn_counts(uint wanted) {
+    if (my_search.lo_count >= wanted && my_search.lo < my_search.above) {
+        my_search.above = my_search.lo;
+        my_search.above_count = my_search.lo_count;
+    }
+    if (my_search.hi_count >= wanted && my_search.hi < my_search.above) {
+        my_search.above = my_search.hi;
+        my_search.above_count = my_search.hi_count;
+    }
+    if (is_cut_short) return;
+    if (my_search.lo_count < wanted && my_search.lo >= my_search.below) {
+        my_search.below = my_search.lo;
+        my_search.below_count = my_search.lo_count;
+    }
+    if (my_search.hi_count < wanted) {
+        my_search.below = my_search.hi;
+        my_search.below_count = my_search.hi_count;
+    } else if (my_search.lo_count + SHELL_SIZE < wanted) { // more lie below than the shell holds
+        my_search.below = uintBitsToFloat(shell[SHELL_SIZE - 1u]);
+        my_search.below_count = my_search.lo_count + SHELL_SIZE;
+    }
+}
+
+// Bounds about a radius that is expected there, if each photon takes up as much of the measure as told.
+void aim_bounds(float target, float each) {
+    float reach = each * float(SHELL_SIZE) * FIRST_FILL;
+    my_search.lo = target - reach;
+    my_search.hi = target + reach;
+}
+
+// The next bounds, from what is known. Photons lie on surfaces: counts grow with the squared radius.
+void choose_bounds(uint wanted, uint pass, float limit) {
+    float below = max(my_search.below, 0.0);
+    bool is_open = my_search.above == INFINITY;
+    float last_lo = my_search.lo;
+    if (is_open && 4u * my_search.below_count > wanted && pass < 2u) {
+        float each = below / float(my_search.below_count);
+        aim_bounds(each * (float(wanted) - 0.5), each);
+    } else if (is_open) {
+        float scale = 1.4 * float(wanted) / float(max(my_search.below_count, 1u));
+        my_search.lo = my_search.below;
+        my_search.hi = max(below * clamp(scale, 1.5, 16.0), limit * SMALLEST_SHARE);
+    } else if (is_cut_short) {
+        my_search.lo = my_search.below;
+        my_search.hi = below > 0.0 ? sqrt(below) * sqrt(my_search.above) : my_search.above / 16.0;
+    } else if (my_search.below_count + SHELL_SIZE >= wanted) { // the shell reaches it from here
+        my_search.lo = my_search.below;
+        my_search.hi = my_search.above;
+    } else if (pass > PATIENCE) {
+        uint middle = (floatBitsToUint(below) + floatBitsToUint(my_search.above)) / 2u;
+        my_search.lo = uintBitsToFloat(middle);
+        my_search.hi = my_search.above;
+    } else {
+        float span = my_search.above - below;
+        float each = span / float(my_search.above_count - my_search.below_count);
+        // Where counts do not grow evenly the middle does better than what they point at.
+        bool halves = pass > 2u && pass % 2u == 0u;
+        aim_bounds(below + (halves ? 0.5 * span : each * (float(wanted - my_search.below_count) - 0.5)), each);
+    }
+    my_search.lo = clamp(my_search.lo, my_search.below, my_search.above);
+    my_search.hi = min(max(my_search.hi, my_search.lo), min(my_search.above, limit));
+}
+
+// Looks at what a pass found, and takes the radius or prepares the next pass.
+void judge_pass(inout uint rank, uint pass, float limit) {
+    if (my_search.above == -1.0) { // photons that tie at the radius have been counted
+        settle_radius(my_search.lo, rank, my_search.below_count, my_search.lo_count - my_search.below_count);
+        return;
+    }
+    if (!is_cut_short && my_search.hi >= limit && my_search.hi_count < rank) { // there are no more: the farthest's
+        rank = my_search.hi_count;
+        my_search.below = -1.0;
+        my_search.below_count = 0u;
+    }
+    bool reaches = !is_cut_short && my_search.lo_count < rank && rank <= my_search.lo_count + SHELL_SIZE &&
+                   pick_shell(rank - my_search.lo_count) <= my_search.hi;
+    if (reaches) {
+        try_shell(rank);
+    } else {
+        learn_counts(rank);
+        choose_bounds(rank, pass, limit);
+    }
+}
+
+// Finds every lane's radius for `k` neighbours. `guess2` is a squared radius that may be right.
+// Without turns left at the end the result is not to be trusted.
+void find_radius(bool has_query, uint photon_count, uint leaf_level, uint k, float guess2) {
+    uint wanted = k + 2u; // the photon itself, k neighbours, and the one that gives the radius
+    float limit = measure_limit();
+    float share = FIRST_FILL * float(SHELL_SIZE) / float(wanted);
+    // A shell that holds all needs no bound below.
+    float lo = wanted <= SHELL_SIZE ? -1.0 : guess2 * (1.0 - share);
+    float hi = min(guess2 * (1.0 + clamp(share, 0.1, 0.4)), limit);
+    my_search = Search(has_query, min(lo, hi), hi, -1.0, INFINITY, 0u, 0u, 0u, 0u);
+    my_gathered = Gathered(0.0, 1.0, 0.0, 0u);
+    map_size = photon_count;
+    uint rank = wanted; // fewer photons than wanted: the farthest's
+    uint pass = 0u; // of this lane
+    while (subgroupAny(my_search.searching && pass < LARGEST_PASS_COUNT) && has_turns_left()) {
+        bool takes_part = choose_part(my_search.searching, my_search.hi);
+        count_pass(takes_part, wanted, photon_count, leaf_level);
+        if (takes_part) judge_pass(rank, pass, limit);
+        pass += uint(takes_part);
+        ++turns;
+    }
+    if (my_search.searching) turns = TURN_BUDGET; // not found: as good as out of turns
+}
