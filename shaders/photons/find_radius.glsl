@@ -78,23 +78,24 @@ void count_pass(bool searching, uint wanted, uint photon_count, uint leaf_level)
     bool accepts = searching;
     is_cut_short = false;
     set_batch(searching, hi);
-    uint depth = leaf_level == 0u ? 0u : 1u;
-    uint leaf_count = leaf_level == 0u ? 1u : 0u;
-    start_walk();
-    do {
+    start_walk(leaf_level);
+    bool goes_on = true;
+    while (goes_on) {
         // Lanes that accept nothing more put nothing in order.
         my_search.lo = accepts ? lo : INFINITY;
-        walk_tree(leaf_level, depth, leaf_count);
-        count_leaves(leaf_count, photon_count, leaf_level);
-        bool is_crowded = my_search.hi_count > CROWD_FACTOR * wanted + CROWD_BASE;
-        if (accepts && is_crowded && depth > 0u) {
-            accepts = false;
-            is_cut_short = true;
-        }
+        bool is_crowded = false;
+        do {
+            count_leaves(photon_count, leaf_level);
+            walk_on();
+            ++turns;
+            is_crowded = accepts && my_search.hi_count > CROWD_FACTOR * wanted + CROWD_BASE;
+            goes_on = walk.leaves != 0u && has_turns_left();
+        } while (goes_on && !subgroupAny(is_crowded));
+        is_cut_short = is_cut_short || (is_crowded && goes_on);
+        accepts = accepts && !is_crowded;
         set_batch(accepts, hi);
-        leaf_count = 0u;
-        ++turns;
-    } while (depth > 0u && subgroupAny(accepts) && has_turns_left());
+        goes_on = goes_on && subgroupAny(accepts);
+    }
     my_search.lo = lo;
     if (!searching) my_search = kept;
 }

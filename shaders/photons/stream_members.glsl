@@ -43,15 +43,12 @@ void stream_members(bool has_query, uint photon_count, uint leaf_level, float r2
         bool takes_part = choose_part(is_left, r2);
         set_batch(takes_part, r2);
         member_r2 = takes_part ? r2 : -1.0;
-        uint depth = leaf_level == 0u ? 0u : 1u;
-        uint leaf_count = leaf_level == 0u ? 1u : 0u;
-        start_walk();
+        start_walk(leaf_level);
         do {
-            walk_tree(leaf_level, depth, leaf_count);
-            stream_leaves(leaf_count, photon_count, leaf_level);
-            leaf_count = 0u;
+            stream_leaves(photon_count, leaf_level);
+            walk_on();
             ++turns;
-        } while (depth > 0u && has_turns_left());
+        } while (walk.leaves != 0u && has_turns_left());
         is_left = is_left && !takes_part;
     } while (subgroupAny(is_left) && has_turns_left());
 }

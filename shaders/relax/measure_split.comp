@@ -19,6 +19,11 @@ const uint FEWEST_GAPS = 8u;  // on each side, or their evenness says nothing
 
 shared float signed_distances[LIST_SIZE];
 
+void synchronize() {
+    subgroupMemoryBarrierShared();
+    subgroupBarrier();
+}
+
 vec2 my_direction;
 float my_r2;
 uint listed;
@@ -120,15 +125,12 @@ float weigh_split(uint gap_count, float r) {
 void list_neighbors(uint photon_count, uint leaf_level) {
     listed = 0u;
     set_batch(true, my_r2);
-    uint depth = leaf_level == 0u ? 0u : 1u;
-    uint leaf_count = leaf_level == 0u ? 1u : 0u;
-    start_walk();
+    start_walk(leaf_level);
     do {
-        walk_tree(leaf_level, depth, leaf_count);
-        list_leaves(leaf_count, photon_count, leaf_level);
-        leaf_count = 0u;
+        list_leaves(photon_count, leaf_level);
+        walk_on();
         ++turns;
-    } while (depth > 0u && has_turns_left());
+    } while (walk.leaves != 0u && has_turns_left());
 }
 
 void main() {
@@ -148,6 +150,7 @@ void main() {
         signed_distances[min(listed + 1u, LIST_SIZE - 1u)] = r;
     }
     uint count = min(listed + 2u, LIST_SIZE);
+    synchronize();
     sort_list(count);
     float weight = weigh_split(count - 1u, r);
     if (size == 0.0 || r == 0.0) weight = 0.0;

@@ -38,7 +38,8 @@ def build_contact_sheet(pictures: Mapping[str, pl.Image], *, columns: int, expos
     for number, tile in enumerate(tiles):
         top, left = (number // columns) * (height + _GAP), (number % columns) * (width + _GAP)
         sheet[top : top + height, left : left + width] = tile
-    return pl.Image(sheet)
+    origin = {label: image.provenance for label, image in pictures.items()}
+    return pl.Image(sheet, provenance={"version": pl.__version__, "pictures": origin})
 
 
 def _draw_label(text: str, width: int) -> NDArray[np.float64]:
