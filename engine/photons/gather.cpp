@@ -15,9 +15,11 @@ namespace {
 // Photons kept in order above the bound (shaders/photons/find_radius.glsl). Each costs two operations for every
 // photon that streams by, a bound that misses costs a pass.
 constexpr std::uint32_t SMALLEST_SHELL = 4;
-constexpr std::uint32_t LARGEST_SHELL = 16;
+constexpr std::uint32_t LARGEST_SHELL = 12;
+// Workgroups of the first chunk of work: fewer would leave the device idle while chunks grow.
+constexpr std::uint64_t FIRST_GROUPS = 64;
 // Subgroups of photons a workgroup takes in turn: amortises its start.
-constexpr std::uint32_t BATCHES = 4;
+constexpr std::uint32_t BATCHES = 16;
 constexpr std::array<const char*, 3> PLANES{"yz", "xz", "xy"}; // without axis 0, 1, 2
 
 // Entries of the shell: all that are sought where that is few.
@@ -102,7 +104,7 @@ std::vector<std::uint32_t> gather_once(gpu::Device& device, const KdTree& tree, 
     const std::uint64_t runs = (tree.count + width - 1) / width;
     const gpu::Buffer unanswered = gpu::make_buffer(device, std::vector<std::uint32_t>(runs), "unanswered");
     gpu::run_in_chunks(
-        device, stage, run.total, run.per_group, progress,
+        device, stage, run.total, run.per_group * FIRST_GROUPS, progress,
         [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
             settings.first = static_cast<std::uint32_t>(first);
             settings.count = static_cast<std::uint32_t>(count);

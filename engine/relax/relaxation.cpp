@@ -13,6 +13,7 @@ namespace {
 
 constexpr const char* STAGE = "relax photons";
 constexpr std::uint32_t GROUP = 64;
+constexpr std::uint64_t FIRST_CHUNK = 1 << 14; // photons
 
 // Squared radius of K neighbours as a share of that of `other` neighbours, on even density.
 float scale_radius2(std::uint32_t k, std::uint32_t other) {
@@ -103,7 +104,7 @@ void Relaxation::shift_photons() {
 
 void Relaxation::find_surface(const Progress& progress) {
     m_triangles = gpu::Buffer(m_device, m_photons.count * sizeof(std::uint32_t), "photons' triangles");
-    gpu::run_in_chunks(m_device, STAGE, m_photons.count, GROUP, progress,
+    gpu::run_in_chunks(m_device, STAGE, m_photons.count, FIRST_CHUNK, progress,
                        [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
                            const shared::MoveSettings push{static_cast<std::uint32_t>(first),
                                                            static_cast<std::uint32_t>(count), 0, 0};
@@ -204,7 +205,7 @@ void Relaxation::move(const Progress& progress) {
         defines.emplace_back("HAS_SURFACE");
     const bool is_constrained = m_settings.constraint.descriptor != Descriptor::none;
     const gpu::Buffer& unused = m_next;
-    gpu::run_in_chunks(m_device, STAGE, m_photons.count, GROUP, progress,
+    gpu::run_in_chunks(m_device, STAGE, m_photons.count, FIRST_CHUNK, progress,
                        [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
                            const shared::MoveSettings push{static_cast<std::uint32_t>(first),
                                                            static_cast<std::uint32_t>(count), 0, 0};

@@ -230,7 +230,7 @@ void find_radius(bool has_query, uint photon_count, uint leaf_level, uint k, flo
     float share = FIRST_FILL * float(SHELL_SIZE) / float(wanted);
     // A shell that holds all needs no bound below.
     float lo = wanted <= SHELL_SIZE ? -1.0 : guess2 * (1.0 - share);
-    float hi = min(guess2 * (1.0 + clamp(share, 0.1, 0.4)), limit);
+    float hi = min(guess2 * (1.0 + (wanted <= SHELL_SIZE ? 1.2 : clamp(share, 0.1, 0.4))), limit);
     my_search = Search(has_query, min(lo, hi), hi, -1.0, INFINITY, 0u, 0u, 0u, 0u);
     my_gathered = Gathered(0.0, 1.0, 0.0, 0u);
     map_size = photon_count;

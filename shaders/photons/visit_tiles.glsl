@@ -11,7 +11,7 @@
 #define LANE gl_LocalInvocationID.x
 
 // A box wider than so many reaches is no good bound.
-const float SCATTERED_REACHES = 3.0;
+const float SCATTERED_REACHES = 10.0;
 
 Place batch_lo;
 Place batch_hi;

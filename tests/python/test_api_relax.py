@@ -1,49 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Relaxation as an interface: settings and their refusals, the report, what a relaxed map keeps, saving and loading."""
+"""Relaxation as an interface: the report, what a relaxed map keeps, the constraint alone, step by step."""
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 import photonloupe as pl
-from photonloupe.columns import PATH_NAMES, STATE_COLUMNS
-from photonloupe.relaxing import SEARCHES
-
-COUNT = 600
-STEPS = 3
-STATE = tuple(column.name for column in STATE_COLUMNS)
-KEPT = ("emitter", "emitted_index", "object")
-UP = (0.0, 1.0, 0.0)
-
-
-def build(count: int = COUNT, *, parameters: bool = False) -> pl.PhotonMap:
-    """Photons of two lights on the plane y = 0, denser on one half."""
-    rng = np.random.default_rng(5)
-    x = np.where(rng.random(count) < 0.8, 0.5 * rng.random(count), rng.random(count))
-    photons = pl.PhotonMap.from_arrays(
-        positions=np.stack([x, np.zeros(count), rng.random(count)], axis=1),
-        normals=np.tile([UP], (count, 1)),
-        power=rng.random((count, 3)),
-        emitter=np.arange(count) % 2,
-        emitted_index=3 * np.arange(count),
-        object=np.arange(count) % 5 - 1,
-    )
-    if parameters:
-        set_parameters(photons)
-    return photons
-
-
-def set_parameters(photons: pl.PhotonMap) -> None:
-    """A parameter along x, in steps; a few photons are unset."""
-    values = np.stack([np.floor(4 * photons.positions[:, 0]), photons.positions[:, 2]], axis=1)
-    values[::50] = np.nan
-    photons.set_parameters(values, ("layer", "z"))
+from relax_maps import COUNT, KEPT, STEPS, build, read_column
 
 
 @pytest.fixture(scope="module")
@@ -63,142 +29,12 @@ def relaxed(layered: pl.PhotonMap) -> pl.PhotonMap:
 
 @pytest.fixture(scope="module")
 def traced(ring: pl.Scene) -> pl.PhotonMap:
-    """A map of the ring whose paths nobody has read yet."""
     return pl.trace_photons(ring, 2_000, seed=4)
 
 
 @pytest.fixture(scope="module")
 def relaxed_ring(traced: pl.PhotonMap) -> pl.PhotonMap:
     return traced.relax(STEPS)
-
-
-@pytest.fixture(scope="module")
-def traced_paths(ring: pl.Scene) -> dict[str, NDArray[Any]]:
-    """Paths of the same photons from a tracing of their own."""
-    photons = pl.trace_photons(ring, 2_000, seed=4)
-    return {name: getattr(photons, name) for name in PATH_NAMES}
-
-
-@pytest.fixture
-def reloaded(relaxed: pl.PhotonMap, tmp_path: Path) -> pl.PhotonMap:
-    relaxed.save(tmp_path / "map.zarr")
-    return pl.load_photons(tmp_path / "map.zarr")
-
-
-def as_saved(value: Any) -> Any:
-    """As JSON gives it back: tuples are lists there."""
-    return json.loads(json.dumps(value))
-
-
-def read_column(photons: pl.PhotonMap, name: str) -> tuple[Any, ...]:
-    """Type, shape and bits of a column, also of the traced positions, which have no attribute."""
-    values = photons._columns[name]
-    return values.dtype, values.shape, values.tobytes()
-
-
-# Settings
-
-
-@pytest.mark.parametrize(
-    ("settings", "message"),
-    [
-        ({"steps": -1}, "steps must be from 0 to 10000, not -1"),
-        ({"steps": 10_001}, "steps must be from 0"),
-        ({"steps": 2.5}, "steps must be a whole number"),
-        ({"steps": True}, "steps must be from 0"),
-        ({"neighbors": 0}, "neighbors must be from 1 to 998, not 0"),
-        ({"neighbors": 999}, "neighbors must be from 1"),
-        ({"constraint": "paths"}, "constraint must be one of auto, world, parameter, not 'paths'"),
-        ({"descriptor": "ppca"}, "descriptor must be one of none, gradient, pca, tensor, split, not 'ppca'"),
-        ({"repel": "auto"}, "repel must be one of world, parameter, not 'auto'"),
-        ({"search": "quick"}, "search must be one of exact, .*, not 'quick'"),
-        ({"surface": "plane"}, "surface must be one of auto, tangent, not 'plane'"),
-        ({"over_relaxation": 0.0}, "over_relaxation must be from 0.001 to 1000, not 0.0"),
-        ({"over_relaxation": (2.0, np.nan)}, "over_relaxation must be from"),
-        ({"over_relaxation": (2.0, 1.5, 1.0)}, "over_relaxation must be one number, or the first and the last"),
-        ({"over_relaxation": "fast"}, "over_relaxation must be"),
-        ({"limit": 0.0}, "limit must be from 1e-06 to 1e\\+06, not 0.0"),
-        ({"limit": np.inf}, "limit must be from"),
-        ({"limit": "none"}, "limit must be a number"),
-        ({"constraint_neighbors": 11}, "constraint_neighbors must be from 12 to 998, not 11"),
-        ({"constraint_neighbors": 999}, "constraint_neighbors must be from 12"),
-        ({"thresholds": (0.5,)}, "thresholds must be the value that leaves free and the one that fixes"),
-        ({"thresholds": (0.5, 0.5)}, "thresholds are both 0.5"),
-        ({"thresholds": (0.5, np.nan)}, "thresholds must be from"),
-        ({"thresholds": 0.5}, "thresholds must be"),
-        ({"constraint": "parameter"}, 'constraint="parameter" needs parameters'),
-        ({"repel": "parameter"}, 'repel="parameter" needs parameters'),
-        ({"beta": -1.0}, "beta must be from 0"),
-        ({"beta": "best"}, "beta must be one of auto"),
-        ({"period": (1.0, 1.0)}, "period must be three lengths"),
-        ({"period": (1.0, -1.0, 0.0)}, "period must be from 0"),
-    ],
-    ids=lambda value: None if isinstance(value, str) else str(value),
-)
-def test_setting_out_of_range_is_refused(photons: pl.PhotonMap, settings: dict[str, Any], message: str) -> None:
-    with pytest.raises(pl.ArgumentError, match=message):
-        photons.relax(**settings)
-
-
-@pytest.mark.parametrize(
-    ("beta", "message"),
-    [(-1.0, "beta must be from 0"), (np.nan, "beta must be from 0"), ("best", "beta must be one of auto")],
-)
-def test_beta_out_of_range_is_refused_where_it_is_used(layered: pl.PhotonMap, beta: Any, message: str) -> None:
-    with pytest.raises(pl.ArgumentError, match=message):
-        layered.relax(STEPS, beta=beta)
-
-
-def test_unknown_setting_is_refused(photons: pl.PhotonMap) -> None:
-    with pytest.raises(TypeError, match="speed"):
-        photons.relax(speed=1)  # type: ignore[call-arg]
-
-
-def test_constraint_is_that_of_the_parameters_where_there_are_any(layered: pl.PhotonMap) -> None:
-    assert layered.relax(0).relaxation["settings"]["constraint"] == "parameter"
-
-
-def test_constraint_is_that_of_the_world_where_there_are_no_parameters(photons: pl.PhotonMap) -> None:
-    assert photons.relax(0).relaxation["settings"]["constraint"] == "world"
-
-
-def test_constraint_of_the_world_leaves_parameters_alone(photons: pl.PhotonMap, layered: pl.PhotonMap) -> None:
-    here, there = (each.relax(STEPS, constraint="world") for each in (photons, layered))
-    assert here.positions.tobytes() == there.positions.tobytes()
-
-
-def test_layers_change_where_photons_go(layered: pl.PhotonMap) -> None:
-    world, parameter = (layered.relax(STEPS, beta=1.0, constraint=space) for space in ("world", "parameter"))
-    assert not np.array_equal(world.positions, parameter.positions)
-
-
-def test_beta_auto_is_that_of_optimal_beta(layered: pl.PhotonMap) -> None:
-    assert layered.relax(0, beta="auto").relaxation["settings"]["beta"] == float(pl.optimal_beta(layered))
-
-
-def test_one_number_is_both_ends_of_over_relaxation(photons: pl.PhotonMap) -> None:
-    one, two = (photons.relax(STEPS, over_relaxation=value) for value in (1.5, (1.5, 1.5)))
-    assert one.positions.tobytes() == two.positions.tobytes()
-
-
-def test_neighbors_are_the_second_argument(photons: pl.PhotonMap) -> None:
-    assert photons.relax(1, 7).relaxation["settings"]["neighbors"] == 7
-
-
-def test_settings_that_nothing_was_said_of_are_in_the_report(photons: pl.PhotonMap) -> None:
-    assert None not in photons.relax(0).relaxation["settings"].values()
-
-
-def test_even_emission_needs_fewer_steps(ring: pl.Scene) -> None:
-    sobol, random = (pl.trace_photons(ring, 500, emission=emission) for emission in ("sobol", "random"))
-    assert pl.Relaxation(sobol).steps < pl.Relaxation(random).steps
-
-
-@pytest.mark.parametrize("search", SEARCHES)
-def test_every_search_moves_photons_apart(photons: pl.PhotonMap, search: str) -> None:
-    moved = photons.relax(STEPS, descriptor="none", search=search)
-    nearest = [np.median(each.neighbors(np.arange(COUNT), 1)[1]) for each in (photons, moved)]
-    assert nearest[1] > nearest[0]
 
 
 # Report
@@ -434,105 +270,3 @@ def test_callback_hears_of_the_constraint_and_the_steps(photons: pl.PhotonMap) -
 def test_false_stops_relaxation(photons: pl.PhotonMap) -> None:
     with pytest.raises(pl.Cancelled):
         photons.relax(STEPS, progress=lambda stage, _: stage != "relax photons")
-
-
-# Paths
-
-
-@pytest.mark.parametrize("name", PATH_NAMES)
-def test_paths_of_a_relaxed_map_are_those_traced(
-    relaxed_ring: pl.PhotonMap, traced_paths: dict[str, NDArray[Any]], name: str
-) -> None:
-    np.testing.assert_array_equal(getattr(relaxed_ring, name), traced_paths[name])
-
-
-@pytest.mark.parametrize("name", PATH_NAMES)
-def test_paths_read_before_relaxing_stay(ring: pl.Scene, traced_paths: dict[str, NDArray[Any]], name: str) -> None:
-    photons = pl.trace_photons(ring, 2_000, seed=4, columns=PATH_NAMES)
-    np.testing.assert_array_equal(getattr(photons.relax(1), name), traced_paths[name])
-
-
-def test_loaded_relaxed_map_records_the_paths_traced(
-    ring: pl.Scene, traced_paths: dict[str, NDArray[Any]], tmp_path: Path
-) -> None:
-    pl.trace_photons(ring, 2_000, seed=4).relax(STEPS).save(tmp_path / "map.zarr")
-    loaded = pl.load_photons(tmp_path / "map.zarr")
-    assert "path_vertices" not in loaded.recorded
-    np.testing.assert_array_equal(loaded.path_vertices, traced_paths["path_vertices"])
-
-
-def test_map_relaxed_twice_records_the_paths_traced(ring: pl.Scene, traced_paths: dict[str, NDArray[Any]]) -> None:
-    twice = pl.trace_photons(ring, 2_000, seed=4).relax(1).relax(1)
-    np.testing.assert_array_equal(twice.path_vertices, traced_paths["path_vertices"])
-
-
-def test_selection_of_a_relaxed_map_records_its_own_paths(
-    relaxed_ring: pl.PhotonMap, traced_paths: dict[str, NDArray[Any]]
-) -> None:
-    ids = np.arange(len(relaxed_ring))[::-7]
-    picked = relaxed_ring.select(ids)
-    ends = traced_paths["path_vertices"][traced_paths["path_offsets"][1:] - 1]
-    np.testing.assert_array_equal(picked.path_vertices[picked.path_offsets[1:] - 1], ends[ids])
-
-
-def test_path_ends_where_the_photon_was_traced(traced: pl.PhotonMap, relaxed_ring: pl.PhotonMap) -> None:
-    ends = relaxed_ring.path_vertices[relaxed_ring.path_offsets[1:] - 1]
-    np.testing.assert_array_equal(ends, traced.positions)
-
-
-# Saving, selecting
-
-
-@pytest.mark.parametrize("name", ["positions", "normals", "power", *KEPT, *STATE])
-def test_column_survives_saving_bit_for_bit(relaxed: pl.PhotonMap, reloaded: pl.PhotonMap, name: str) -> None:
-    assert read_column(reloaded, name) == read_column(relaxed, name)
-
-
-def test_report_survives_saving(relaxed: pl.PhotonMap, reloaded: pl.PhotonMap) -> None:
-    assert as_saved(reloaded.relaxation) == as_saved(relaxed.relaxation)
-
-
-def test_loaded_map_relaxes_on_as_the_saved_one(relaxed: pl.PhotonMap, reloaded: pl.PhotonMap) -> None:
-    assert reloaded.relax(1).positions.tobytes() == relaxed.relax(1).positions.tobytes()
-
-
-def test_loaded_traced_map_relaxes_as_the_saved_one(
-    traced: pl.PhotonMap, relaxed_ring: pl.PhotonMap, tmp_path: Path
-) -> None:
-    traced.save(tmp_path / "map.zarr")
-    relaxed = pl.load_photons(tmp_path / "map.zarr").relax(STEPS)
-    assert relaxed.positions.tobytes() == relaxed_ring.positions.tobytes()
-
-
-@pytest.mark.parametrize(
-    ("name", "value", "message"),
-    [
-        ("pressure", -1.0, "is below 0"),
-        ("drift", np.inf, "is not finite"),
-        ("constraint_weights", 1.5, "is above 1"),
-        ("constraint_basis", np.nan, "is not finite"),
-        ("traced_positions", np.nan, "is not finite"),
-    ],
-)
-def test_saved_state_that_cannot_be_is_refused(
-    relaxed: pl.PhotonMap, tmp_path: Path, name: str, value: float, message: str
-) -> None:
-    import zarr  # noqa: PLC0415 - only here
-
-    relaxed.save(tmp_path / "map.zarr")
-    array = zarr.open_array(store=tmp_path / "map.zarr" / name, mode="r+")
-    values = np.array(array[...])
-    values[3] = value
-    array[...] = values
-    with pytest.raises(pl.FileFormatError, match=rf"{name}\[3\].*{message}"):
-        pl.load_photons(tmp_path / "map.zarr")
-
-
-@pytest.mark.parametrize("name", STATE)
-def test_selection_keeps_the_state_of_its_photons(relaxed: pl.PhotonMap, name: str) -> None:
-    rows = relaxed._columns[name][[9, 4]]
-    assert read_column(relaxed.select([9, 4]), name) == (rows.dtype, rows.shape, rows.tobytes())
-
-
-def test_selection_keeps_the_report(relaxed: pl.PhotonMap) -> None:
-    assert relaxed.select([9, 4]).relaxation == relaxed.relaxation
