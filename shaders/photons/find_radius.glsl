@@ -18,6 +18,7 @@ const uint PATIENCE = 6u;
 const uint LARGEST_PASS_COUNT = 64u;
 // Where nothing is known, the first radius tried, as a share of the largest.
 const float SMALLEST_SHARE = 1e-12;
+const float SMALLEST_MEASURE = 1e-37; // still a normal float
 // A lane that has met more than this of what it seeks has reached too far and gives the pass up: beside a crowd an
 // outlier's ball would take in all of it.
 const uint CROWD_FACTOR = 8u;
@@ -30,6 +31,8 @@ struct Search {
     float below, above;              // known: fewer than wanted reach `below`, as many reach `above`
     uint below_count, above_count;
     uint lo_count, hi_count;         // of this pass
+    bool counts_ties;                // this pass counts those that tie at lo, of which more than a shell were met …
+    uint nearer;                     // … with so many nearer
 };
 
 // What was found.
@@ -76,6 +79,9 @@ void count_pass(bool searching, uint wanted, uint photon_count, uint leaf_level)
 #define CLEAR(i) shell[i] = NO_MEASURE;
     EACH_KEPT(CLEAR)
     bool accepts = searching;
+    // Photons that coincide are a crowd that no smaller reach gets rid of.
+    bool may_give_up = !my_search.counts_ties &&
+                       floatBitsToUint(max(hi, 0.0)) > floatBitsToUint(max(my_search.below, 0.0)) + 1u;
     is_cut_short = false;
     set_batch(searching, hi);
     start_walk(leaf_level);
@@ -88,7 +94,7 @@ void count_pass(bool searching, uint wanted, uint photon_count, uint leaf_level)
             count_leaves(photon_count, leaf_level);
             walk_on();
             ++turns;
-            is_crowded = accepts && my_search.hi_count > CROWD_FACTOR * wanted + CROWD_BASE;
+            is_crowded = may_give_up && accepts && my_search.hi_count > CROWD_FACTOR * wanted + CROWD_BASE;
             goes_on = walk.leaves != 0u && has_turns_left();
         } while (goes_on && !subgroupAny(is_crowded));
         is_cut_short = is_cut_short || (is_crowded && goes_on);
@@ -117,6 +123,14 @@ void settle_radius(float r2, uint rank, uint nearer, uint equal) {
     my_search.searching = false;
 }
 
+// Has the next pass count all that tie at a measure.
+void count_ties(float measure, uint nearer) {
+    my_search.counts_ties = true;
+    my_search.nearer = nearer;
+    my_search.lo = measure;
+    my_search.hi = measure;
+}
+
 // Takes the radius from the shell if it is there. More photons than the shell holds may tie at it: then they are
 // counted in another pass, with the radius itself as the bound.
 void try_shell(uint rank) {
@@ -126,15 +140,8 @@ void try_shell(uint rank) {
 #define RANK_KEPT(i) nearer += uint(shell[i] < bits); equal += uint(shell[i] == bits);
     EACH_KEPT(RANK_KEPT)
     bool may_overflow = shell[SHELL_SIZE - 1u] == bits;
-    if (!may_overflow) {
-        settle_radius(r2, rank, nearer, equal);
-    } else {
-        my_search.below = r2; // not truly below: the next pass counts up to just here
-        my_search.below_count = nearer;
-        my_search.lo = r2;
-        my_search.hi = r2;
-        my_search.above = -1.0;
-    }
+    if (may_overflow) count_ties(r2, nearer);
+    else settle_radius(r2, rank, nearer, equal);
 }
 
 // What a pass that missed has taught.
@@ -155,9 +162,14 @@ void learn_counts(uint wanted) {
     if (my_search.hi_count < wanted) {
         my_search.below = my_search.hi;
         my_search.below_count = my_search.hi_count;
-    } else if (my_search.lo_count + SHELL_SIZE < wanted) { // more lie below than the shell holds
-        my_search.below = uintBitsToFloat(shell[SHELL_SIZE - 1u]);
-        my_search.below_count = my_search.lo_count + SHELL_SIZE;
+    } else if (my_search.lo_count + SHELL_SIZE < wanted) {
+        // More lie below than the shell holds; of those that tie at its end only some may be in it.
+        uint end = shell[SHELL_SIZE - 1u];
+        uint nearer = my_search.lo_count;
+#define COUNT_NEARER(i) nearer += uint(shell[i] < end);
+        EACH_KEPT(COUNT_NEARER)
+        my_search.below = uintBitsToFloat(max(end, 1u) - 1u);
+        my_search.below_count = nearer;
     }
 }
 
@@ -179,7 +191,7 @@ void choose_bounds(uint wanted, uint pass, float limit) {
     } else if (is_open) {
         float scale = 1.4 * float(wanted) / float(max(my_search.below_count, 1u));
         my_search.lo = my_search.below;
-        my_search.hi = max(below * clamp(scale, 1.5, 16.0), limit * SMALLEST_SHARE);
+        my_search.hi = max(max(below * clamp(scale, 1.5, 16.0), limit * SMALLEST_SHARE), SMALLEST_MEASURE);
     } else if (is_cut_short) {
         my_search.lo = my_search.below;
         my_search.hi = below > 0.0 ? sqrt(below) * sqrt(my_search.above) : my_search.above / 16.0;
@@ -203,8 +215,15 @@ void choose_bounds(uint wanted, uint pass, float limit) {
 
 // Looks at what a pass found, and takes the radius or prepares the next pass.
 void judge_pass(inout uint rank, uint pass, float limit) {
-    if (my_search.above == -1.0) { // photons that tie at the radius have been counted
-        settle_radius(my_search.lo, rank, my_search.below_count, my_search.lo_count - my_search.below_count);
+    if (my_search.counts_ties) {
+        my_search.counts_ties = false;
+        if (my_search.lo_count >= rank) {
+            settle_radius(my_search.lo, rank, my_search.nearer, my_search.lo_count - my_search.nearer);
+        } else {
+            my_search.below = my_search.lo;
+            my_search.below_count = my_search.lo_count;
+            choose_bounds(rank, pass, limit);
+        }
         return;
     }
     if (!is_cut_short && my_search.hi >= limit && my_search.hi_count < rank) { // there are no more: the farthest's
@@ -214,8 +233,13 @@ void judge_pass(inout uint rank, uint pass, float limit) {
     }
     bool reaches = !is_cut_short && my_search.lo_count < rank && rank <= my_search.lo_count + SHELL_SIZE &&
                    pick_shell(rank - my_search.lo_count) <= my_search.hi;
+    // A shell of ties alone says nothing about what lies beyond.
+    bool is_full_of_ties = !is_cut_short && my_search.lo_count + SHELL_SIZE < rank && shell[0] == shell[SHELL_SIZE - 1u] &&
+                           uintBitsToFloat(shell[0]) <= my_search.hi;
     if (reaches) {
         try_shell(rank);
+    } else if (is_full_of_ties) {
+        count_ties(uintBitsToFloat(shell[0]), my_search.lo_count);
     } else {
         learn_counts(rank);
         choose_bounds(rank, pass, limit);
@@ -231,7 +255,7 @@ void find_radius(bool has_query, uint photon_count, uint leaf_level, uint k, flo
     // A shell that holds all needs no bound below.
     float lo = wanted <= SHELL_SIZE ? -1.0 : guess2 * (1.0 - share);
     float hi = min(guess2 * (1.0 + (wanted <= SHELL_SIZE ? 1.2 : clamp(share, 0.1, 0.4))), limit);
-    my_search = Search(has_query, min(lo, hi), hi, -1.0, INFINITY, 0u, 0u, 0u, 0u);
+    my_search = Search(has_query, min(lo, hi), hi, -1.0, INFINITY, 0u, 0u, 0u, 0u, false, 0u);
     my_gathered = Gathered(0.0, 1.0, 0.0, 0u);
     map_size = photon_count;
     uint rank = wanted; // fewer photons than wanted: the farthest's
