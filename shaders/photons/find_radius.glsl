@@ -242,7 +242,11 @@ void judge_pass(inout uint rank, uint pass, float limit) {
         count_ties(uintBitsToFloat(shell[0]), my_search.lo_count);
     } else {
         learn_counts(rank);
-        choose_bounds(rank, pass, limit);
+        // Between 0, or a float, and its neighbor there is nothing: the radius is known.
+        bool is_pinned = my_search.below < 0.0 ? my_search.above <= 0.0 : my_search.above < INFINITY &&
+                         floatBitsToUint(my_search.above) <= floatBitsToUint(my_search.below) + 1u;
+        if (is_pinned) count_ties(my_search.above, my_search.below < 0.0 ? 0u : my_search.below_count);
+        else choose_bounds(rank, pass, limit);
     }
 }
 
