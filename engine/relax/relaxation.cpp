@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "relax/flux_diffusion.h"
+
 
 namespace photonloupe {
 namespace {
@@ -86,6 +88,16 @@ Relaxation::Relaxation(gpu::Device& device, const PhotonMap& photons, const KdTr
     m_layers = find_layers_of(settings.repel, settings.neighbors, settings.beta, m_shape);
     if (m_surface.scene)
         find_surface(progress);
+    if (settings.diffuse_flux)
+        order_power();
+}
+
+void Relaxation::order_power() {
+    const std::vector<glm::vec4> power = m_photons.power_object.read<glm::vec4>(m_photons.count);
+    std::vector<glm::vec4> ordered;
+    for (const glm::vec4& position : m_tree.positions.read<glm::vec4>(m_photons.count))
+        ordered.emplace_back(glm::vec3(power[std::bit_cast<std::uint32_t>(position.w)]), 0.0f);
+    m_power = gpu::make_buffer(m_device, ordered, "fluxes in tree order");
 }
 
 // The scene's triangles are relative to its origin; a map from arrays may have another.
@@ -189,7 +201,7 @@ void Relaxation::reorder(const Progress& progress) {
     std::swap(tree.normals, m_tree.normals);
     m_tree = std::move(tree);
     for (gpu::Buffer* rows : {&m_start, &m_moves, &m_constraint.along, &m_constraint.across, &m_constraint.offsets,
-                              &m_constraint.member_radii})
+                              &m_constraint.member_radii, &m_power})
         bring(*rows, 1, glm::vec4());
     bring(m_radii, 1, float());
     bring(m_triangles, 1, std::uint32_t());
@@ -228,11 +240,15 @@ void Relaxation::move(const Progress& progress) {
 
 StepReport Relaxation::step(const Progress& progress) {
     const float tau = find_tau(m_settings, m_step);
+    double flux_drift = 0;
     if (m_photons.count > 0) {
         repel(tau, progress);
+        if (m_settings.diffuse_flux) // before the move: radii and places belong together
+            flux_drift = diffuse_flux(m_device, m_tree, m_shape, m_layers, m_radii, m_power, progress);
         move(progress);
     }
     StepReport report = report_step(tau);
+    report.flux_drift = flux_drift;
     ++m_step;
     return report;
 }
@@ -288,6 +304,7 @@ RelaxedColumns Relaxation::read() const {
     std::vector<glm::vec4> old_normals = m_photons.normal_index.read<glm::vec4>(count);
     std::vector<glm::vec4> power = m_photons.power_object.read<glm::vec4>(count);
     std::vector<glm::vec4> placed(count);
+    const std::vector<glm::vec4> fluxes = m_power.is_empty() ? std::vector<glm::vec4>{} : m_power.read<glm::vec4>(count);
     columns.drift.resize(3 * count);
     for (std::size_t at = 0; at < count; ++at) {
         const std::uint32_t id = std::bit_cast<std::uint32_t>(positions[at].w);
@@ -300,6 +317,8 @@ RelaxedColumns Relaxation::read() const {
             old_normals[id][axis] = normals[at][axis];
         }
         placed[id].w = before[id].w;
+        for (int channel = 0; channel < 3 && !fluxes.empty(); ++channel)
+            power[id][channel] = fluxes[at][channel];
     }
     columns.map.position_emitter = gpu::make_buffer(m_device, placed, "photon positions");
     columns.map.normal_index = gpu::make_buffer(m_device, old_normals, "photon normals");

@@ -56,6 +56,7 @@ public:
 private:
     void find_surface(const Progress& progress);
     void shift_photons();
+    void order_power();
     void repel(float tau, const Progress& progress);
     void move(const Progress& progress);
     void reorder(const Progress& progress);
@@ -74,6 +75,7 @@ private:
     gpu::Buffer m_triangles;
     Layers m_layers;        // of repulsion
     GatherShape m_shape;    // of repulsion
+    gpu::Buffer m_power;    // rgb, tree order; with flux diffusion
     Constraint m_constraint;
     float m_carry = 0;      // share of the squared radii that the next query looks for
     std::array<double, 3> m_shift{}; // of positions: the map's origin less the scene's

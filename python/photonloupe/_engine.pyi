@@ -129,19 +129,39 @@ class PhotonMap:
 def photons_from_columns(device: Device, columns: dict, store: str = 'caustic') -> PhotonMap:
     """Upload checked columns as a photon map."""
 
-def find_neighbors(device: Device, photons: PhotonMap, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', writable=False)] | None, ids: Annotated[NDArray[numpy.uint32], dict(shape=(None,), order='C', writable=False)] | None, k: int, progress: object | None = None) -> tuple:
+def find_neighbors(device: Device, photons: PhotonMap, points: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', writable=False)] | None, ids: Annotated[NDArray[numpy.uint32], dict(shape=(None,), order='C', writable=False)] | None, k: int, query: dict, progress: object | None = None) -> tuple:
     """
-    The k nearest photons of points (n, 3), or of photons by id (n,); exactly one is not None.
+    The k nearest photons of points, or of photons by id (n,); exactly one is not None. query: space, beta, center, low, high.
     """
+
+def set_parameters(device: Device, photons: PhotonMap, values: Annotated[NDArray[numpy.float32], dict(shape=(None, None), order='C', writable=False)], periods: Sequence[float]) -> None:
+    """Replace a map's parameters (n, m); a period of 0: it does not wrap."""
 
 def trace_photons(device: Device, scene: Scene, settings: dict, progress: object | None = None) -> PhotonMap:
     """
     Trace photons; settings: count, emitted, seed, emission, store, max_bounces, paths.
     """
 
+class Relaxation:
+    def step(self, progress: object | None = None) -> dict:
+        """One step; what it did."""
+
+    def read(self) -> tuple:
+        """(map, state columns by photon id, photons off their surface)."""
+
+def measure_isotropy(device: Device, photons: PhotonMap, k: int, progress: object | None = None) -> NDArray[numpy.float32]:
+    """
+    Axis ratios (n,) of the world positions of each photon's k neighbours in parameter space; NaN: none.
+    """
+
 def measure_spectrum(device: Device, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', writable=False)], radius: Sequence[float], progress: object | None = None) -> tuple:
     """
     Frequencies (m, 2) of a half plane up to `radius` cycles over the sides, and the power (m,) of points (n, 2) in sides.
+    """
+
+def start_relaxation(device: Device, photons: PhotonMap, scene: object | None, settings: dict, progress: object | None = None) -> Relaxation:
+    """
+    Measure the constraint and stand ready; settings: steps, neighbors, over_relaxation, limit, repel, beta, search, diffuse_flux, period, descriptor, constraint, constraint_neighbors, thresholds.
     """
 
 def estimate_irradiance(device: Device, photons: PhotonMap, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', writable=False)], normals: Annotated[NDArray[numpy.float32], dict(shape=(None, 3), order='C', writable=False)], k: int, kernel: str, progress: object | None = None) -> NDArray[numpy.float32]:

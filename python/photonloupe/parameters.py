@@ -55,7 +55,8 @@ def check_parameters(
     if len(given) != count:
         raise ArgumentError(f"values has {len(given)} rows, the map has {count} photons")
     with np.errstate(over="ignore"):
-        columns = np.ascontiguousarray(given, dtype=np.float32)
+        # A copy: the map must not change when the caller's array does.
+        columns = np.array(given, dtype=np.float32, order="C", copy=True)
     if np.isinf(columns).any():
         row, dimension = np.unravel_index(int(np.argmax(np.isinf(columns))), columns.shape)
         raise ArgumentError(
@@ -93,7 +94,10 @@ def _check_bounds(bounds: ArrayLike | None, columns: NDArray[np.float32]) -> lis
         if len(filled) == 0:
             return [(0.0, 0.0)] * columns.shape[1]
         return [(float(low), float(high)) for low, high in zip(filled.min(axis=0), filled.max(axis=0), strict=True)]
-    given = np.asarray(bounds, dtype=np.float64)
+    try:
+        given = np.asarray(bounds, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise ArgumentError(f"bounds must be numbers of shape ({columns.shape[1]}, 2)") from None
     if given.shape != (columns.shape[1], 2):
         raise ArgumentError(f"bounds must have shape ({columns.shape[1]}, 2), not {given.shape}")
     limits = []
@@ -116,6 +120,8 @@ def read_parameters(rows: Sequence[Mapping[str, Any]], columns: NDArray[np.float
         names = [row["name"] for row in rows]
         bounds = [(row["low"], row["high"]) for row in rows]
         periodic = [row["periodic"] for row in rows]
+        if not all(isinstance(flag, bool) for flag in periodic):
+            raise ValueError("periodic is neither true nor false")
         return check_parameters(columns, len(columns), names, bounds, periodic)[1]
     except (ArgumentError, KeyError, TypeError, ValueError) as error:
         raise FileFormatError(f"the saved parameters are damaged: {error}; save the map again") from error

@@ -177,6 +177,11 @@ class PhotonColumns:
         return self._read_state("one_sidedness", "constrain() or relax()")
 
     @property
+    def traced_positions(self) -> Float3:
+        """Where the photons were before any relaxation, (n, 3), m; paths end there."""
+        return self._columns.get("traced_positions", self.positions)
+
+    @property
     def drift(self) -> Float3:
         """Displacement since the constraint was measured, (n, 3), m."""
         return self._read_state("drift", "relax()")

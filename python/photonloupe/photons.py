@@ -14,13 +14,13 @@ from photonloupe import _engine, exporting, queries, storage
 from photonloupe.checks import check_count, check_rows
 from photonloupe.columns import PATH_NAMES, PHOTON_COLUMNS, STATE_COLUMNS, Columns, check_columns
 from photonloupe.device import Device, open_device
-from photonloupe.errors import ArgumentError
+from photonloupe.errors import ArgumentError, PhotonLoupeError
 from photonloupe.nearest import find_neighbors
 from photonloupe.parameters import Parameter, describe_parameters
 from photonloupe.paths import find_traced_rows, gather_paths, match_signature, read_path_columns, trace_paths
 from photonloupe.photon_columns import Float3, PhotonColumns
 from photonloupe.progress import ProgressLike
-from photonloupe.provenance import reload_scene
+from photonloupe.provenance import describe_origin, reload_scene
 from photonloupe.relaxing import RelaxKeywords, relax_photons
 from photonloupe.scene import Scene
 
@@ -141,7 +141,7 @@ class PhotonMap(PhotonColumns):
         )
         least = int(columns["emitted_index"].max(initial=0)) + 1
         emitted = least if emitted is None else check_count("emitted", emitted, least, MAX_EMITTED)
-        provenance = {"version": _engine.version, "source": "arrays"}
+        provenance = {**describe_origin(None, surface, {}), "source": "arrays"}
         return cls(columns, emitted=emitted, provenance=provenance, scene=surface, device=device)
 
     @property
@@ -456,7 +456,7 @@ class PhotonMap(PhotonColumns):
 
     def find_surface(self) -> Scene | None:
         """Return the scene whose surfaces the photons lie on; None for a map from arrays without one."""
-        return self._find_scene() if self._scene is not None or self._settings else None
+        return self._find_scene() if self._scene is not None or "scene_path" in self._provenance else None
 
     def replace_positions(self, native: _engine.PhotonMap, state: Columns, relaxation: Mapping[str, Any]) -> PhotonMap:
         """Return this map with the photons where a relaxation put them; paths keep their traced end points."""
@@ -483,12 +483,14 @@ class PhotonMap(PhotonColumns):
     def _find_scene(self) -> Scene:
         """Return the scene the map was traced in, loading it again if its file is unchanged."""
         if self._scene is None:
-            self._scene = reload_scene(self._provenance if self._settings else {})
+            self._scene = reload_scene(self._provenance)
         return self._scene
 
     def _record_paths(self) -> None:
         if "path_offsets" in self._columns:
             return
+        if not self._settings:
+            raise PhotonLoupeError("this map was not traced here, so paths that it lacks cannot be recorded")
         traced = trace_paths(open_device(self._device), self._find_scene(), self._settings, self._emitted)
         rows = find_traced_rows(self._columns, traced)
         self._add_columns(gather_paths(read_path_columns(traced), rows))

@@ -40,10 +40,13 @@ def reload_scene(provenance: Mapping[str, Any]) -> Scene:
     """
     path = provenance.get("scene_path")
     if not path:
-        raise PhotonLoupeError("this map was not traced here, so paths that it lacks cannot be recorded")
+        raise PhotonLoupeError("this map knows of no scene")
     scene = load_scene(path)
     if scene.hash != provenance.get("scene_hash"):
-        raise PhotonLoupeError(f"{path} has changed since this map was traced; trace it anew to have its paths")
+        raise PhotonLoupeError(
+            f"{path} has changed since this map was made; trace it anew (its photons as they are can still be relaxed "
+            'in their tangent planes, surface="tangent")'
+        )
     return scene
 
 

@@ -67,10 +67,8 @@ def check_beta(value: Any, photons: PhotonMap, progress: ProgressLike = None) ->
 
 
 class RelaxKeywords(TypedDict, total=False):
-    """What `PhotonMap.relax` and `Relaxation` can be told; `PhotonMap.relax` says what each means."""
+    """What `PhotonMap.relax` can be told beside steps and neighbors; it says what each means."""
 
-    steps: int | None
-    neighbors: int | None
     constraint: str
     descriptor: str | None
     beta: float | str | None
@@ -83,6 +81,13 @@ class RelaxKeywords(TypedDict, total=False):
     search: str
     surface: str
     period: Sequence[float] | None
+
+
+class AllRelaxKeywords(RelaxKeywords, total=False):
+    """What `Relaxation` can be told."""
+
+    steps: int | None
+    neighbors: int | None
 
 
 def check_settings(
@@ -128,12 +133,12 @@ def check_settings(
         "neighbors": check_count("neighbors", best["neighbors"] if neighbors is None else neighbors, 1, MAX_NEIGHBORS),
         "constraint": space,
         "descriptor": descriptor,
-        "beta": check_beta(beta, photons, progress) if needs_beta else 0.0,
+        "beta": _choose_beta(beta, needs_beta, photons, progress),
         "repel": repel,
         "over_relaxation": _check_over_relaxation(
             best["over_relaxation"] if over_relaxation is None else over_relaxation
         ),
-        "limit": 0.0 if limit is None else check_number("limit", limit, 1e-6, 1e6),
+        "limit": None if limit is None else check_number("limit", limit, 1e-6, 1e6),
         "constraint_neighbors": k,
         "thresholds": _check_thresholds(find_thresholds(descriptor, k) if thresholds is None else thresholds),
         "diffuse_flux": bool(diffuse_flux),
@@ -143,8 +148,27 @@ def check_settings(
     }
 
 
+def _choose_beta(beta: Any, is_needed: bool, photons: PhotonMap, progress: ProgressLike) -> float:
+    """β where layers decide, 0 where they don't; a wrong one is refused all the same."""
+    if beta == "auto" and not is_needed:
+        return 0.0
+    checked = check_beta(beta, photons, progress)
+    return checked if is_needed else 0.0
+
+
+def _read_numbers(name: str, value: Any, count: int) -> tuple[Any, ...]:
+    """Take apart what should be `count` numbers."""
+    try:
+        numbers = tuple(value)
+    except TypeError:
+        numbers = ()
+    if len(numbers) != count:
+        raise ArgumentError(f"{name} must be {count} numbers, not {value!r}")
+    return numbers
+
+
 def find_best(emission: str, space: str) -> dict[str, Any]:
-    """Settings with the least error of all tried on the ring (docs/relaxation.md)."""
+    """Return the settings with the least error of all tried on the ring (docs/relaxation.md)."""
     is_sobol = emission == "sobol"
     if space == "parameter":
         return {
@@ -163,31 +187,23 @@ def find_best(emission: str, space: str) -> dict[str, Any]:
     }
 
 
-def _check_over_relaxation(value: Sequence[float] | float) -> tuple[float, float]:
-    pair = (value, value) if isinstance(value, int | float) else tuple(value)
-    if len(pair) != 2:
-        raise ArgumentError(f"over_relaxation must be one number, or the first and the last: {value!r}")
-    first, last = (check_number("over_relaxation", entry, 1e-3, 1e3) for entry in pair)
-    return first, last
+def _check_over_relaxation(value: Sequence[float] | float) -> list[float]:
+    pair = (value, value) if isinstance(value, int | float) else _read_numbers("over_relaxation", value, 2)
+    return [check_number("over_relaxation", entry, 1e-3, 1e3) for entry in pair]
 
 
-def _check_thresholds(value: Sequence[float]) -> tuple[float, float]:
-    pair = tuple(value)
-    if len(pair) != 2:
-        raise ArgumentError(f"thresholds must be the value that leaves free and the one that fixes, not {value!r}")
+def _check_thresholds(value: Sequence[float]) -> list[float]:
+    pair = _read_numbers("thresholds", value, 2)
     free_at, fixed_at = (check_number("thresholds", entry, -1e30, 1e30) for entry in pair)
     if free_at == fixed_at:
         raise ArgumentError(f"thresholds are both {free_at:g}; between them the weight rises from 0 to 1")
-    return free_at, fixed_at
+    return [free_at, fixed_at]
 
 
-def _check_period(value: Sequence[float] | None) -> tuple[float, float, float]:
+def _check_period(value: Sequence[float] | None) -> list[float]:
     if value is None:
-        return 0.0, 0.0, 0.0
-    if len(tuple(value)) != 3:
-        raise ArgumentError(f"period must be three lengths in m, 0 where space does not repeat, not {value!r}")
-    x, y, z = (check_number("period", entry, 0.0, 1e30) for entry in value)
-    return x, y, z
+        return [0.0, 0.0, 0.0]
+    return [check_number("period", entry, 0.0, 1e30) for entry in _read_numbers("period", value, 3)]
 
 
 class Relaxation:
@@ -213,7 +229,7 @@ class Relaxation:
     """
 
     def __init__(
-        self, photons: PhotonMap, *, progress: ProgressLike = None, **settings: Unpack[RelaxKeywords]
+        self, photons: PhotonMap, *, progress: ProgressLike = None, **settings: Unpack[AllRelaxKeywords]
     ) -> None:
         self._source = photons
         self._settings = check_settings(photons, progress, **settings)
@@ -221,15 +237,23 @@ class Relaxation:
         self._device = open_device(photons.device)
         self._scene = photons.find_surface() if self._settings["surface"] == "auto" else None
         native_scene = None if self._scene is None else self._scene._native
-        native_settings = {**self._settings, "over_relaxation": list(self._settings["over_relaxation"])}
-        native_settings["thresholds"] = list(self._settings["thresholds"])
-        native_settings["period"] = list(self._settings["period"])
-        # The engine divides by the number of steps, even where none is made.
-        native_settings["steps"] = max(self._settings["steps"], 1)
+        native_settings = {
+            **self._settings,
+            "limit": self._settings["limit"] or 0.0,
+            # The engine divides by the number of steps, even where none is made.
+            "steps": max(self._settings["steps"], 1),
+        }
         with follow_progress(progress) as callback:
             self._native = _engine.start_relaxation(
                 self._device._native, photons.upload(), native_scene, native_settings, callback
             )
+
+    def __repr__(self) -> str:
+        told = self._settings
+        return (
+            f"<Relaxation of {len(self._source):,} photons: step {self.step_count} of {self.steps}, "
+            f"{told['neighbors']} neighbors, {told['descriptor']} in {told['constraint']} space>"
+        )
 
     @property
     def settings(self) -> dict[str, Any]:
@@ -281,7 +305,7 @@ class Relaxation:
         }
 
 
-def relax_photons(photons: PhotonMap, progress: ProgressLike, **settings: Unpack[RelaxKeywords]) -> PhotonMap:
+def relax_photons(photons: PhotonMap, progress: ProgressLike, **settings: Unpack[AllRelaxKeywords]) -> PhotonMap:
     """Run a whole relaxation; see `PhotonMap.relax`."""
     relaxation = Relaxation(photons, progress=progress, **settings)
     for _ in range(relaxation.steps):

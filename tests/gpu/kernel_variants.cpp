@@ -25,12 +25,31 @@ const std::vector<std::string> BLOCK{"SORT_BLOCK 128u"}, NETWORK{"SORT_NETWORK"}
     STORE{"STORE_KEYS"};
 const std::vector<std::string> KERNELS{"KERNEL 0", "KERNEL 1", "KERNEL 2", "KERNEL 3"};
 
+const std::vector<std::string> SPACES{"SPACE 0", "SPACE 1", "SPACE 2"};
+const std::vector<std::string> FLAT{"", "FLAT_AXES xz"}, PERIODIC{"", "PERIODIC"}, SINGLY{"", "SINGLY"};
+// Two rows of parameters; kernels in parameter space always have some.
+const std::vector<std::string> SOME_PARAMETERS{"PARAMETER_COUNT 5u\n#define PARAMETER_ROWS 2u"};
+const std::vector<std::string> PARAMETERS{"", SOME_PARAMETERS[0],
+                                          SOME_PARAMETERS[0] + "\n#define PERIODIC_PARAMETERS"};
+const std::vector<std::string> SHELL{"SHELL_SIZE 2u\n#define EACH_KEPT(DO) DO(0) DO(1)"};
+const std::vector<std::string> DESCRIPTORS{"DESCRIPTOR 1", "DESCRIPTOR 2", "DESCRIPTOR 3"};
+
 // Kernels that are not named here take no defines.
 const std::map<std::string, Factors> FACTORS{
     {"estimate/estimate_irradiance.comp", {KERNELS, CAPACITY, BLOCK, NETWORK, LOAD, STORE}},
     {"estimate/select_irradiance.comp", {KERNELS}},
     {"estimate/trace_eye.comp", {MIRROR, DIELECTRIC, ABSORPTION}},
-    {"photons/find_neighbors.comp", {CAPACITY, BLOCK, NETWORK, LOAD, STORE}},
+    {"photons/find_neighbors.comp", {CAPACITY, BLOCK, NETWORK, LOAD, STORE, SPACES, SOME_PARAMETERS}},
+    {"photons/find_parameter_radius.comp", {SHELL, SOME_PARAMETERS, PERIODIC, SINGLY}},
+    {"photons/gather_parameters.comp", {{"PARAMETER_ROWS 2u"}}},
+    {"photons/select_neighbors.comp", {SPACES, SOME_PARAMETERS}},
+    {"relax/diffuse_flux.comp", {FLAT, PARAMETERS, PERIODIC, SINGLY}},
+    {"relax/measure_isotropy.comp", {SHELL, SOME_PARAMETERS, PERIODIC, SINGLY}},
+    {"relax/measure_moments.comp", {SHELL, DESCRIPTORS, FLAT, PARAMETERS, PERIODIC, SINGLY}},
+    {"relax/measure_split.comp", {FLAT, PARAMETERS, PERIODIC}},
+    {"relax/measure_tensor.comp", {FLAT, PARAMETERS, PERIODIC, SINGLY}},
+    {"relax/move_photons.comp", {{"", "HAS_SURFACE"}}},
+    {"relax/repel_photons.comp", {SHELL, FLAT, PARAMETERS, PERIODIC, SINGLY, {"", "CARRIED"}, {"", "CONSTRAINED"}}},
     {"trace/shoot_photons.comp", {STORES, EMISSIONS, PATHS, MIRROR, DIELECTRIC, ABSORPTION, LIGHTS}},
     {"trace/write_photons.comp", {PATHS}},
 };

@@ -11,6 +11,7 @@
 #include "gpu/kernel_variants.h"
 #include "gpu/reflect_spirv.h"
 #include "shared/photons.h"
+#include "shared/relax.h"
 #include "shared/render.h"
 #include "shared/scene.h"
 #include "shared/trace.h"
@@ -25,7 +26,8 @@ const std::map<std::string, HostStruct> HOST_STRUCTS{
     STRUCT(Triangle),     STRUCT(TriangleNormals), STRUCT(Material),      STRUCT(Light),       STRUCT(BvhNode),
     STRUCT(SceneHeader),  STRUCT(TraceSettings),   STRUCT(LightEmission), STRUCT(PathSummary), STRUCT(BalanceSum),
     STRUCT(TreeNode),     STRUCT(TreeBuild),       STRUCT(NeighborQuery), STRUCT(CameraFrame), STRUCT(EyeSettings),
-    STRUCT(FilmSettings), STRUCT(PlotSettings),
+    STRUCT(FilmSettings), STRUCT(PlotSettings),    STRUCT(TreeRefit),     STRUCT(GatherSettings),
+    STRUCT(RepelSettings), STRUCT(DescribeSettings), STRUCT(MoveSettings),
 };
 
 std::vector<std::uint32_t> compile(const KernelVariant& variant, std::uint64_t by_address = 0) {

@@ -87,7 +87,7 @@ def test_relax_takes_every_option(ring_zarr: Path, tmp_path: Path) -> None:
         ("--beta 4", "beta", 4.0),
         ("--repel parameter", "repel", "parameter"),
         ("--over-relaxation 1.5", "over_relaxation", [1.5, 1.5]),
-        ("--limit none", "limit", 0.0),
+        ("--limit none", "limit", None),
         ("--diffuse-flux", "diffuse_flux", True),
         (f"--search {SEARCHES[-1]}", "search", SEARCHES[-1]),
         ("--constraint parameter", "constraint", "parameter"),

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Evens out unequal fluxes (METHODS §3): each photon's becomes the mean of its own and its neighbours', these weighted
+// by 1 - d²/r². Inputs: the tree, tree_normals, parameters where they decide, radii (squared, of the step), tree_power
+// (rgb, in tree order). Outputs: diffused_power (rgb), unanswered. The host restores the total.
+#include "shared/prelude.glsl"
+#include "shared/relax.h"
+#include "photons/world_candidates.glsl"
+#pragma binding texel tree_power
+
+vec3 my_power;
+vec3 power_sum;
+float weight_sum;
+vec3 tile_power;
+float my_r2;
+float candidate_weight;
+
+void load_payload(uint position) { tile_power = tree_power_at(position).rgb; }
+
+// The photon meets itself at weight 1, which is its own share.
+void accumulate(Candidate other, float weight) {
+    candidate_weight = weight * max(1.0 - square_length(find_offset(other)) / my_r2, 0.0);
+}
+
+void meet_payload(uint lane, float weight) {
+    vec3 power = vec3(subgroupBroadcast(tile_power.x, lane), subgroupBroadcast(tile_power.y, lane),
+                      subgroupBroadcast(tile_power.z, lane));
+    power_sum += candidate_weight > 0.0 ? power * candidate_weight : vec3(0.0);
+    weight_sum += candidate_weight > 0.0 ? candidate_weight : 0.0;
+}
+
+#define HAS_PAYLOAD
+#include "photons/stream_members.glsl"
+#include "photons/each_photon.glsl"
+#pragma binding readonly float radii
+#pragma binding writeonly vec4 diffused_power
+
+layout(push_constant) uniform Push { GatherSettings settings; };
+
+void main() {
+    for (uint batch = 0u; batch < BATCH_COUNT(settings); ++batch) {
+        uint position;
+        bool has_photon = take_turn(settings, batch, position);
+        take_photon(position, settings.period, settings.flatness);
+        my_power = tree_power_at(position).rgb;
+        my_r2 = radii[position];
+        power_sum = vec3(0.0);
+        weight_sum = 0.0;
+        stream_members(has_photon && my_r2 > 0.0, settings.photon_count, settings.leaf_level, my_r2, 0.0);
+        if (has_photon) diffused_power[position] = vec4(weight_sum > 0.0 ? power_sum / weight_sum : my_power, 0.0);
+        report_turn(has_photon, has_turns_left(), position);
+    }
+}
