@@ -46,6 +46,7 @@ RelaxSettings read_settings(const nb::dict& given) {
     settings.beta = nb::cast<float>(given["beta"]);
     settings.search =
         nb::cast<std::string>(given["search"]) == "carried" ? RadiusSearch::carried : RadiusSearch::exact;
+    settings.tree = nb::cast<std::string>(given["tree"]) == "position" ? LayerTree::position : LayerTree::layered;
     settings.diffuse_flux = nb::cast<bool>(given["diffuse_flux"]);
     settings.period = nb::cast<std::array<float, 3>>(given["period"]);
     settings.constraint.descriptor = parse_descriptor(nb::cast<std::string>(given["descriptor"]));
@@ -137,7 +138,7 @@ void bind_relax(nb::module_& module) {
     module.def("start_relaxation", &start, nb::arg("device"), nb::arg("photons"), nb::arg("scene").none(),
                nb::arg("settings"), nb::arg("progress").none() = nb::none(), nb::keep_alive<0, 1>(),
                "Measure the constraint and stand ready; settings: steps, neighbors, over_relaxation, limit, repel, "
-               "beta, search, diffuse_flux, period, descriptor, constraint, constraint_neighbors, thresholds.");
+               "beta, search, tree, diffuse_flux, period, descriptor, constraint, constraint_neighbors, thresholds.");
 }
 
 } // namespace photonloupe::bindings

@@ -35,7 +35,7 @@ std::shared_ptr<Photons> Workbench::trace_photons(const Scene& scene, const Trac
             return traced;
     TracedPhotons traced = photonloupe::trace_photons(m_device, scene, *find_buffers(scene), settings, progress);
     auto photons =
-        std::make_shared<Photons>(Photons{std::move(traced.map), traced.report, settings.store, std::nullopt, std::nullopt});
+        std::make_shared<Photons>(Photons{std::move(traced.map), traced.report, settings.store, std::nullopt, std::nullopt, nullptr});
     m_traced = photons;
     m_traced_key = key;
     return photons;
@@ -110,17 +110,28 @@ const ParameterTree& Workbench::find_parameter_tree(Photons& photons, const Prog
     return *photons.parameter_tree;
 }
 
+std::shared_ptr<const LayeredTree> Workbench::find_layered_tree(Photons& photons, const Progress& progress) {
+    if (!photons.layered_tree)
+        photons.layered_tree = std::make_shared<LayeredTree>(
+            build_layered_tree(m_device, photons.map, find_parameter_tree(photons, progress), progress));
+    return photons.layered_tree;
+}
+
 Relaxation Workbench::start_relaxation(Photons& photons, const Scene* scene, const RelaxSettings& settings,
                                        const Progress& progress) {
     const KdTree& tree = find_tree(photons, progress);
     const bool constrains = settings.constraint.descriptor != Descriptor::none;
     const bool needs_parameters = settings.repel == Space::parameter ||
                                   (constrains && settings.constraint.space == Space::parameter);
-    const ParameterTree* parameters = needs_parameters ? &find_parameter_tree(photons, progress) : nullptr;
+    LayerTrees trees;
+    if (needs_parameters)
+        trees.parameters = &find_parameter_tree(photons, progress);
+    if (needs_parameters && settings.tree == LayerTree::layered)
+        trees.layered = find_layered_tree(photons, progress);
     RelaxSurface surface;
     if (scene)
         surface = {find_buffers(*scene), scene->origin};
-    return Relaxation(m_device, photons.map, tree, parameters, settings, std::move(surface), progress);
+    return Relaxation(m_device, photons.map, tree, trees, settings, std::move(surface), progress);
 }
 
 gpu::Buffer Workbench::estimate_irradiance(Photons& photons, std::span<const glm::vec4> points,

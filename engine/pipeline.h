@@ -23,6 +23,7 @@ struct Photons {
     Store store = Store::caustic;
     std::optional<KdTree> tree;
     std::optional<ParameterTree> parameter_tree;
+    std::shared_ptr<const LayeredTree> layered_tree; // relaxations keep it
 };
 
 // Runs the stages on one device and remembers their inputs: a stage whose inputs did not change does not run again.
@@ -54,6 +55,8 @@ public:
                                    std::span<const float> high, std::uint32_t k, const Progress& progress);
 
     const ParameterTree& find_parameter_tree(Photons& photons, const Progress& progress = {});
+
+    std::shared_ptr<const LayeredTree> find_layered_tree(Photons& photons, const Progress& progress = {});
 
     // Axis ratios of photons in world space around their k neighbours in parameter space, by id ([SJL15] eq. 5).
     std::vector<float> measure_isotropy(Photons& photons, std::uint32_t k, const Progress& progress);

@@ -61,6 +61,12 @@ std::vector<std::string> list_parameter_defines(const GatherShape& shape) {
                                      "PARAMETER_ROWS " + std::to_string((shape.parameter_count + 3) / 4) + "u"};
     if (shape.has_periodic_parameters)
         defines.emplace_back("PERIODIC_PARAMETERS");
+    if (!shape.range_axes.empty()) {
+        std::string axes = "TREE_RANGES uint[3](";
+        for (std::size_t i = 0; i < 3; ++i)
+            axes += (i ? ", " : "") + std::to_string(i < shape.range_axes.size() ? shape.range_axes[i] : 255) + "u";
+        defines.push_back(axes + ")");
+    }
     return defines;
 }
 

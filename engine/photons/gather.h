@@ -15,6 +15,7 @@ struct GatherShape {
     std::array<float, 3> period{};     // metres after which space repeats; 0: it does not
     std::uint32_t parameter_count = 0; // of those that decide who is a neighbour
     bool has_periodic_parameters = false;
+    std::vector<std::uint32_t> range_axes; // parameters whose ranges the tree's nodes know; empty: a tree of positions
 };
 
 // Finds out whether all photons of a tree lie in one plane of two axes, with one normal.

@@ -26,11 +26,6 @@ std::uint64_t count_tiles(std::uint64_t photon_count) {
     return (photon_count + shared::TREE_TILE - 1) / shared::TREE_TILE;
 }
 
-// As find_first_position() in shaders/photons/tree_layout.glsl.
-std::uint32_t find_position(std::uint64_t count, std::uint64_t node, std::uint32_t level) {
-    return static_cast<std::uint32_t>(std::min(shared::TREE_TILE * (count_tiles(count) * node >> level), count));
-}
-
 struct CopyPush {
     std::uint32_t first;
     std::uint32_t count;
@@ -102,9 +97,9 @@ std::uint32_t split_top(KdTree& tree, const Progress& progress) {
         std::vector<shared::TreeNode> nodes(std::size_t{1} << level);
         const auto split_from = [&](std::size_t first) { // two threads take every other node
             for (std::size_t node = first; node < nodes.size(); node += 2) {
-                const std::uint32_t begin = find_position(tree.count, node, level);
-                const std::uint32_t end = find_position(tree.count, node + 1, level);
-                const std::uint32_t split = find_position(tree.count, 2 * node + 1, level + 1);
+                const std::uint32_t begin = find_first_position(tree.count, node, level);
+                const std::uint32_t end = find_first_position(tree.count, node + 1, level);
+                const std::uint32_t split = find_first_position(tree.count, 2 * node + 1, level + 1);
                 nodes[node] = split_node({&photons[begin], end - begin}, split - begin);
             }
         };
@@ -118,7 +113,13 @@ std::uint32_t split_top(KdTree& tree, const Progress& progress) {
     return level;
 }
 
-void copy_normals(gpu::Device& device, const PhotonMap& photons, const KdTree& tree, const Progress& progress) {
+} // namespace
+
+std::uint32_t find_first_position(std::uint64_t count, std::uint64_t node, std::uint32_t level) {
+    return static_cast<std::uint32_t>(std::min(shared::TREE_TILE * (count_tiles(count) * node >> level), count));
+}
+
+void order_normals(gpu::Device& device, const PhotonMap& photons, const KdTree& tree, const Progress& progress) {
     gpu::run_in_chunks(device, "build tree", photons.count, 1 << 16, progress,
                        [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
                            const CopyPush push{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count)};
@@ -130,8 +131,6 @@ void copy_normals(gpu::Device& device, const PhotonMap& photons, const KdTree& t
                                              push, count);
                        });
 }
-
-} // namespace
 
 std::uint32_t find_leaf_level(std::uint64_t photon_count) {
     std::uint32_t level = 0;
@@ -155,7 +154,7 @@ KdTree build_tree(gpu::Device& device, const PhotonMap& photons, const Progress&
     for (; level < tree.leaf_level && (tree.count >> level) > SUBTREE_PHOTONS; ++level)
         split_levels(device, tree, level, level, progress);
     split_levels(device, tree, level, tree.leaf_level, progress);
-    copy_normals(device, photons, tree, progress);
+    order_normals(device, photons, tree, progress);
     return tree;
 }
 
@@ -209,11 +208,11 @@ TreeArrays read_tree(const KdTree& tree) {
         std::uint32_t axis;
         std::memcpy(&axis, &node.hi_axis.w, sizeof axis);
         const std::uint64_t index = heap - (1ull << level);
-        const std::uint32_t first = find_position(tree.count, index, level);
+        const std::uint32_t first = find_first_position(tree.count, index, level);
         arrays.split_axis.push_back(is_leaf ? std::int8_t{-1} : static_cast<std::int8_t>(axis));
         arrays.split_value.push_back(is_leaf ? 0.0f : node.lo_split.w);
         arrays.first.push_back(static_cast<std::int32_t>(first));
-        arrays.count.push_back(static_cast<std::int32_t>(find_position(tree.count, index + 1, level) - first));
+        arrays.count.push_back(static_cast<std::int32_t>(find_first_position(tree.count, index + 1, level) - first));
         arrays.box.push_back(
             {node.lo_split.x, node.lo_split.y, node.lo_split.z, node.hi_axis.x, node.hi_axis.y, node.hi_axis.z});
     }

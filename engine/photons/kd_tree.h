@@ -20,6 +20,12 @@ struct KdTree {
 // Levels below the root, so that no leaf has more than TREE_LEAF_PHOTONS.
 std::uint32_t find_leaf_level(std::uint64_t photon_count);
 
+// Tree position at which node j of a level begins, as in shaders/photons/tree_layout.glsl.
+std::uint32_t find_first_position(std::uint64_t count, std::uint64_t node, std::uint32_t level);
+
+// Fills tree.normals from the map, in the order of tree.positions.
+void order_normals(gpu::Device& device, const PhotonMap& photons, const KdTree& tree, const Progress& progress = {});
+
 KdTree build_tree(gpu::Device& device, const PhotonMap& photons, const Progress& progress = {});
 
 // A tree of its own, whose photons may then move.

@@ -24,6 +24,7 @@ struct Layers {
     gpu::Buffer parameters; // vec4 rows; empty without parameters
     gpu::Buffer reach2;     // (β·r_q)²
     gpu::Buffer periods;    // as in ParameterTree
+    const gpu::Buffer* ranges = nullptr; // of the nodes of a layered tree
 };
 
 // Packs `count` values a photon and uploads them; a photon with a NaN among them has none at all.

@@ -33,6 +33,7 @@ Constraint measure_constraint(gpu::Device& device, const KdTree& tree, const Gat
                                    {"tree_positions", tree.positions},
                                    {"tree_normals", tree.normals},
                                    {"tree_parameters", parameters},
+                                   {"tree_ranges", layers.ranges ? *layers.ranges : tree.positions},
                                    {"parameter_reach", reach2},
                                    {"parameter_periods", periods},
                                    {"radii", radii},

@@ -31,6 +31,7 @@ double diffuse_flux(gpu::Device& device, const KdTree& tree, const GatherShape& 
                                {"tree_positions", tree.positions},
                                {"tree_normals", tree.normals},
                                {"tree_parameters", layers.parameters.is_empty() ? tree.positions : layers.parameters},
+                               {"tree_ranges", layers.ranges ? *layers.ranges : tree.positions},
                                {"parameter_reach", layers.reach2.is_empty() ? radii : layers.reach2},
                                {"parameter_periods", layers.periods.is_empty() ? radii : layers.periods},
                                {"tree_power", power},

@@ -49,10 +49,10 @@ float find_spacing(const KdTree& tree) {
 } // namespace
 
 Relaxation::Relaxation(gpu::Device& device, const PhotonMap& photons, const KdTree& tree,
-                       const ParameterTree* parameter_tree, const RelaxSettings& settings,
-                       RelaxSurface surface, const Progress& progress)
+                       const LayerTrees& trees, const RelaxSettings& settings, RelaxSurface surface,
+                       const Progress& progress)
     : m_device(device), m_photons(photons), m_settings(settings), m_surface(std::move(surface)),
-      m_tree(copy_tree(device, tree)) {
+      m_tree(copy_tree(device, trees.layered ? trees.layered->tree : tree)) {
     const std::uint64_t count = photons.count;
     if (count == 0)
         return;
@@ -75,7 +75,12 @@ Relaxation::Relaxation(gpu::Device& device, const PhotonMap& photons, const KdTr
         if (space == Space::world)
             return Layers{};
         add_parameters(layered, photons);
-        return find_layers(device, photons, *parameter_tree, m_tree, k, beta, progress);
+        Layers layers = find_layers(device, photons, *trees.parameters, m_tree, k, beta, progress);
+        if (trees.layered) {
+            layers.ranges = &trees.layered->ranges;
+            layered.range_axes = list_range_axes(photons, *trees.parameters);
+        }
+        return layers;
     };
     GatherShape constraint_shape = shape;
     if (constraint.descriptor != Descriptor::none) {
@@ -85,6 +90,8 @@ Relaxation::Relaxation(gpu::Device& device, const PhotonMap& photons, const KdTr
         m_carry = scale_radius2(settings.neighbors, constraint.neighbors);
     }
     m_shape = shape;
+    m_layered = trees.layered;
+    m_parameter_rows = photons.parameters ? photons.parameters->count_rows() : 0;
     m_layers = find_layers_of(settings.repel, settings.neighbors, settings.beta, m_shape);
     if (m_surface.scene)
         find_surface(progress);
@@ -152,6 +159,7 @@ void Relaxation::repel(float tau, const Progress& progress) {
                            {"tree_positions", m_tree.positions},
                            {"tree_normals", m_tree.normals},
                            {"tree_parameters", m_layers.parameters.is_empty() ? m_tree.positions : m_layers.parameters},
+                           {"tree_ranges", m_layers.ranges ? *m_layers.ranges : m_tree.positions},
                            {"parameter_reach", m_layers.reach2.is_empty() ? m_radii : m_layers.reach2},
                            {"parameter_periods", m_layers.periods.is_empty() ? m_radii : m_layers.periods},
                            {"constraint_along", is_constrained ? m_constraint.along : unused},
@@ -169,6 +177,7 @@ void Relaxation::repel(float tau, const Progress& progress) {
         return;
     // Photons that flew far stretch the boxes they stand in: the tree is built anew about where they are now.
     reorder(progress);
+    std::erase_if(defines, [](const std::string& define) { return define.starts_with("TREE_RANGES"); });
     run_gather(m_device, m_tree, kernel, defines, gather, STAGE, dispatch, progress);
 }
 
@@ -206,8 +215,9 @@ void Relaxation::reorder(const Progress& progress) {
     bring(m_radii, 1, float());
     bring(m_triangles, 1, std::uint32_t());
     bring(m_layers.reach2, 1, float());
-    if (m_photons.parameters)
-        bring(m_layers.parameters, m_photons.parameters->count_rows(), glm::vec4());
+    m_layers.ranges = nullptr; // of the nodes there were
+    m_shape.range_axes.clear();
+    bring(m_layers.parameters, m_parameter_rows, glm::vec4());
 }
 
 void Relaxation::move(const Progress& progress) {

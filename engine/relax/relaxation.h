@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "photons/layered_tree.h"
 #include "relax/constraint.h"
 #include "scene/scene_buffers.h"
 
@@ -39,11 +40,17 @@ struct RelaxedColumns {
     std::uint64_t off_surface_count = 0; // photons that moved in their tangent plane
 };
 
+// The trees that know parameters; without `layered` layers are sought in the tree over positions.
+struct LayerTrees {
+    const ParameterTree* parameters = nullptr;
+    std::shared_ptr<const LayeredTree> layered; // kept as long as the relaxation
+};
+
 class Relaxation {
 public:
     // Measures the constraint. Without a surface's scene photons move in their tangent planes.
-    // `parameter_tree` is needed where constraint or repulsion look at parameters.
-    Relaxation(gpu::Device& device, const PhotonMap& photons, const KdTree& tree, const ParameterTree* parameter_tree,
+    // `trees` are needed where constraint or repulsion look at parameters.
+    Relaxation(gpu::Device& device, const PhotonMap& photons, const KdTree& tree, const LayerTrees& trees,
                const RelaxSettings& settings, RelaxSurface surface, const Progress& progress);
 
     // One step (Jacobi: all photons see the places before it).
@@ -73,7 +80,9 @@ private:
     gpu::Buffer m_radii;    // squared, of the last query
     gpu::Buffer m_moves;    // xyz metres, w pressure
     gpu::Buffer m_triangles;
-    Layers m_layers;        // of repulsion
+    std::shared_ptr<const LayeredTree> m_layered;
+    Layers m_layers; // of repulsion
+    std::uint32_t m_parameter_rows = 0;
     GatherShape m_shape;    // of repulsion
     gpu::Buffer m_power;    // rgb, tree order; with flux diffusion
     Constraint m_constraint;

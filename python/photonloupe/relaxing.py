@@ -23,6 +23,7 @@ SPACES = ("world", "parameter")
 DESCRIPTORS = ("none", "gradient", "pca", "tensor", "split")
 SEARCHES = ("exact", "carried")
 SURFACES = ("auto", "tangent")
+TREES = ("auto", "layered", "position")
 
 MAX_STEPS = 10_000
 MAX_NEIGHBORS = 998  # the one after them gives the radius, and the photon itself counts: 1000 in all
@@ -80,6 +81,7 @@ class RelaxKeywords(TypedDict, total=False):
     diffuse_flux: bool
     search: str
     surface: str
+    tree: str
     period: Sequence[float] | None
 
 
@@ -107,6 +109,7 @@ def check_settings(
     diffuse_flux: bool = False,
     search: str = "exact",
     surface: str = "auto",
+    tree: str = "auto",
     period: Sequence[float] | None = None,
 ) -> dict[str, Any]:
     """Check all of a relaxation's settings and fill in those that nothing was said of; see `PhotonMap.relax`."""
@@ -144,6 +147,7 @@ def check_settings(
         "diffuse_flux": bool(diffuse_flux),
         "search": check_choice("search", search, SEARCHES),
         "surface": check_choice("surface", surface, SURFACES),
+        "tree": _choose_tree(check_choice("tree", tree, TREES), repel),
         "period": _check_period(period),
     }
 
@@ -154,6 +158,13 @@ def _choose_beta(beta: Any, is_needed: bool, photons: PhotonMap, progress: Progr
         return 0.0
     checked = check_beta(beta, photons, progress)
     return checked if is_needed else 0.0
+
+
+def _choose_tree(tree: str, repel: str) -> str:
+    """Layered where every step seeks in layers; elsewhere its order costs steps more than it saves the constraint."""
+    if tree != "auto":
+        return tree
+    return "layered" if repel == "parameter" else "position"
 
 
 def _read_numbers(name: str, value: Any, count: int) -> tuple[Any, ...]:

@@ -43,6 +43,7 @@ float measure_candidate(Candidate other) {
     return counts ? measure : INFINITY;
 }
 
+void set_ranges(bool takes_part) {}
 float measure_limit() { return my_limit2; }
 
 float measure_node_gap(Place lo, Place hi, uint node) { return measure_gap(lo, hi, node) * BOX_ROUNDING; }

@@ -33,6 +33,7 @@ void set_batch(bool takes_part, float reach2) {
     batch_lo = find_least(my_place(), takes_part);
     batch_hi = find_most(my_place(), takes_part);
     batch_reach = subgroupMax(takes_part ? reach2 : -1.0);
+    set_ranges(takes_part);
 }
 
 // Which of the lanes that search take part in the next walk: all, or, where they lie so scattered that the box about

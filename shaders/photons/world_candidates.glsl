@@ -9,6 +9,7 @@
 #ifdef PARAMETER_COUNT
 #include "photons/parameters.glsl"
 #pragma binding readonly float parameter_reach
+#pragma binding texel tree_ranges // with TREE_RANGES: of nodes, see engine/photons/layered_tree.h
 #endif
 
 struct Candidate {
@@ -27,6 +28,7 @@ vec3 my_normal;
 float my_flatness;
 #ifdef PARAMETER_COUNT
 float my_reach2;
+const float RANGE_ROUNDING = 1e-6;
 bool am_unset;
 #endif
 
@@ -80,7 +82,42 @@ float measure_candidate(Candidate other) {
     return measure;
 }
 
+#ifdef TREE_RANGES
+// What the batch's photons may find: layer numbers and the parameters that the tree is over.
+vec4 range_lo;
+vec4 range_hi;
+
+// Widened by the reach, and a little, for what rounding may do to differences.
+void set_ranges(bool takes_part) {
+    float layer = 2.0 * float(floatBitsToUint(my_photon.emitter)) + (am_unset ? 1.0 : 0.0);
+    float reach = am_unset ? INFINITY : sqrt(my_reach2);
+    vec4 lo = vec4(layer, vec3(-INFINITY)), hi = vec4(layer, vec3(INFINITY));
+    const uint axes[3] = TREE_RANGES; // the parameters' numbers; beyond PARAMETER_COUNT: none
+    for (uint i = 0u; i < 3u; ++i)
+        if (axes[i] < PARAMETER_COUNT && reach < INFINITY) {
+            float q = my_photon.parameters.q[axes[i]];
+            float slack = RANGE_ROUNDING * (abs(q) + reach);
+            lo[i + 1u] = q - reach - slack;
+            hi[i + 1u] = q + reach + slack;
+        }
+    for (uint i = 0u; i < 4u; ++i) {
+        range_lo[i] = subgroupMin(takes_part ? lo[i] : INFINITY);
+        range_hi[i] = subgroupMax(takes_part ? hi[i] : -INFINITY);
+    }
+}
+
+bool is_in_ranges(uint node) {
+    return all(lessThanEqual(tree_ranges_at(2u * node), range_hi)) &&
+           all(greaterThanEqual(tree_ranges_at(2u * node + 1u), range_lo));
+}
+
+float measure_node_gap(Place lo, Place hi, uint node) {
+    return is_in_ranges(node) ? measure_gap(lo, hi, node) : INFINITY;
+}
+#else
+void set_ranges(bool takes_part) {}
 float measure_node_gap(Place lo, Place hi, uint node) { return measure_gap(lo, hi, node); }
+#endif
 
 // Beyond this no candidate is.
 float measure_limit() {

@@ -3,23 +3,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
-Keywords = Mapping[str, Any]
-
+EMISSIONS = ("random", "sobol")
+SOBOL_THRESHOLDS = (0.5, 2.0)  # METHODS section 7: for the lower noise floor
 # Sobol emission starts from less noise: fewer steps smooth it, more only blur.
 USUAL_STEPS = {"random": 20, "sobol": 5}
 
 
 @dataclass(frozen=True)
 class Method:
-    """A name, the keywords of `PhotonMap.relax`, and the number of steps with each emission it is tried on."""
+    """A name, the keywords of `PhotonMap.relax` but for the steps, the steps, and whether it is tried on larger maps."""
 
     name: str
-    keywords: Keywords
-    steps: Mapping[str, int] = field(default_factory=lambda: USUAL_STEPS)
+    keywords: dict[str, Any]
+    steps: int
+    is_main: bool = False
 
 
 def build_keywords(constraint: str, descriptor: str, neighbors: int, **more: Any) -> dict[str, Any]:
@@ -28,29 +28,46 @@ def build_keywords(constraint: str, descriptor: str, neighbors: int, **more: Any
     return {**common, "over_relaxation": (1.0, 1.0), **more}
 
 
-UNCONSTRAINED = {"constraint": "world", "descriptor": "none", "neighbors": 6}
-WORLD_PCA = {"constraint": "world", "descriptor": "pca", "neighbors": 6}
-PARAMETER_TENSOR = build_keywords("parameter", "tensor", 20, beta=10.0)
+UNCONSTRAINED = {"constraint": "world", "descriptor": "none", "neighbors": 6, "over_relaxation": (2.0, 1.2)}
+WORLD_PCA = {**UNCONSTRAINED, "descriptor": "pca"}
+WORLD_PCA_WIDE = build_keywords("world", "pca", 20)
+WORLD_TENSOR = build_keywords("world", "tensor", 20)
+WORLD_SPLIT = build_keywords("world", "split", 20)
+LAYER_PCA = build_keywords("parameter", "pca", 6, beta=3.0)
+LAYER_TENSOR = build_keywords("parameter", "tensor", 20, beta=10.0)
+ALIKE = {"repel": "parameter"}
 
-METHODS = (
-    Method("unconstrained", UNCONSTRAINED),
-    Method("world pca, SJ09 step", WORLD_PCA),
-    Method("world tensor, K = 20, λ = 1", build_keywords("world", "tensor", 20)),
-    Method("parameter pca, β = 3, K = 6, λ = 1", build_keywords("parameter", "pca", 6, beta=3.0)),
-    Method("parameter tensor, β = 10, K = 20, λ = 1", PARAMETER_TENSOR),
-)
 
-VARIANTS = (
-    Method("unconstrained", UNCONSTRAINED, {"sobol": 20}),
-    Method("world pca, K = 20, λ = 1", build_keywords("world", "pca", 20)),
-    Method("parameter pca, β = 3, K = 20, λ = 1", build_keywords("parameter", "pca", 20, beta=3.0)),
-    Method("parameter tensor, β = 3, K = 6, λ = 1", build_keywords("parameter", "tensor", 6, beta=3.0)),
-    Method("parameter tensor, β = 3, K = 20, λ = 1", build_keywords("parameter", "tensor", 20, beta=3.0)),
-    Method("parameter tensor, β = 10, K = 20, λ = 1", PARAMETER_TENSOR, {"random": 10, "sobol": 10}),
-    Method(
-        "parameter tensor, β = 10, K = 20, λ = 1, thresholds 0.5 and 2",
-        {**PARAMETER_TENSOR, "thresholds": (0.5, 2.0)},
-        {"random": 20, "sobol": 20},
-    ),
-    Method("parameter tensor, β = 10, K = 20, λ = 1, repelled alike", {**PARAMETER_TENSOR, "repel": "parameter"}),
-)
+def list_methods(emission: str) -> list[Method]:
+    """All ways that are tried with an emission; those of `is_main` first."""
+    usual = USUAL_STEPS[emission]
+    methods = [
+        Method("none, K = 6, λ 2 to 1.2", UNCONSTRAINED, usual, is_main=True),
+        Method("world pca, K = 6, λ 2 to 1.2", WORLD_PCA, usual, is_main=True),
+        Method("world tensor, K = 20", WORLD_TENSOR, usual, is_main=True),
+        Method("parameter pca, β = 3, K = 6", LAYER_PCA, usual, is_main=True),
+        Method("parameter tensor, β = 10, K = 20", LAYER_TENSOR, usual, is_main=True),
+        Method("parameter tensor, β = 10, K = 20, repel parameter", {**LAYER_TENSOR, **ALIKE}, usual, is_main=True),
+        Method("none, K = 6, λ 2 to 1.2", UNCONSTRAINED, 25 - usual),
+        Method("none, K = 20", {**WORLD_TENSOR, "descriptor": "none"}, usual),
+        Method("world pca, K = 20", WORLD_PCA_WIDE, usual),
+        Method("world split, K = 20", WORLD_SPLIT, usual),
+        Method("world tensor, K = 20", WORLD_TENSOR, 25 - usual),
+        Method("parameter pca, β = 3, K = 6, repel parameter", {**LAYER_PCA, **ALIKE}, usual),
+        Method("parameter pca, β = auto, K = 6", {**LAYER_PCA, "beta": "auto"}, usual),
+        Method("parameter tensor, β = 10, K = 20", LAYER_TENSOR, 25 - usual),
+        Method("parameter tensor, β = auto, K = 20", {**LAYER_TENSOR, "beta": "auto"}, usual),
+    ]
+    if emission == "sobol":
+        narrow = {"thresholds": SOBOL_THRESHOLDS}
+        methods += [
+            Method("world tensor, K = 20, thresholds 0.5, 2", {**WORLD_TENSOR, **narrow}, 20),
+            Method("parameter tensor, β = 10, K = 20, thresholds 0.5, 2", {**LAYER_TENSOR, **narrow}, 20, is_main=True),
+            Method(
+                "parameter tensor, β = 10, K = 20, thresholds 0.5, 2, repel parameter",
+                {**LAYER_TENSOR, **narrow, **ALIKE},
+                20,
+            ),
+            Method("parameter pca, β = 10, K = 20", build_keywords("parameter", "pca", 20, beta=10.0), usual),
+        ]
+    return methods
