@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 from measure import find_median
 from photon_parameters import set_trajectory
-from relax_error import FIRST_SEED, measure_at, trace_once_reflected
+from relax_error import FIRST_SEED, trace_once_reflected
 from relax_methods import EMISSIONS, Method, list_methods
-from ring_reference import Errors, Reference, average_errors, load_reference
+from ring_reference import Errors, Reference, average_errors, estimate_cells, load_reference
 
 import photonloupe as pl
 
@@ -52,15 +52,16 @@ def compare_errors(method: Method, emission: str, reference: Reference, count: i
         for search in SEARCHES:
             relaxed, seconds = relax_timed(photons, method, search)
             if number > 0:
-                timed[search].append(Timed(measure_at(relaxed, NEIGHBORS, reference), seconds))
+                cells = estimate_cells(relaxed, [NEIGHBORS], reference)[NEIGHBORS]
+                timed[search].append(Timed(reference.measure(cells), seconds))
     exact, carried = (average_errors([each.errors for each in timed[search]]) for search in SEARCHES)
     ratios = [a.seconds / b.seconds for a, b in zip(*timed.values(), strict=True)]
-    cells = [
+    columns = [
         f"{getattr(exact, name):.4f}, {getattr(carried, name):.4f}" for name in ("rmse", "mean_abs", "smooth", "edge")
     ]
     spent = [find_median([each.seconds for each in timed[search]]) for search in SEARCHES]
-    cells += [f"{spent[0]:.2f}, {spent[1]:.2f}", f"{find_median(ratios):.2f} ({min(ratios):.2f}–{max(ratios):.2f})"]
-    return f"| {emission} | {method.name} | {method.steps} | {' | '.join(cells)} |"
+    columns += [f"{spent[0]:.2f}, {spent[1]:.2f}", f"{find_median(ratios):.2f} ({min(ratios):.2f}–{max(ratios):.2f})"]
+    return f"| {emission} | {method.name} | {method.steps} | {' | '.join(columns)} |"
 
 
 def find_variation(points: pl.PhotonMap) -> float:
