@@ -29,6 +29,7 @@ def build_keywords(constraint: str, descriptor: str, neighbors: int, **more: Any
 
 
 UNCONSTRAINED = {"constraint": "world", "descriptor": "none", "neighbors": 6, "over_relaxation": (2.0, 1.2)}
+UNCONSTRAINED_WIDE = build_keywords("world", "none", 20)
 WORLD_PCA = {**UNCONSTRAINED, "descriptor": "pca"}
 WORLD_PCA_WIDE = build_keywords("world", "pca", 20)
 WORLD_TENSOR = build_keywords("world", "tensor", 20)
@@ -49,7 +50,7 @@ def list_methods(emission: str) -> list[Method]:
         Method("parameter tensor, β = 10, K = 20", LAYER_TENSOR, usual, is_main=True),
         Method("parameter tensor, β = 10, K = 20, repel parameter", {**LAYER_TENSOR, **ALIKE}, usual, is_main=True),
         Method("none, K = 6, λ 2 to 1.2", UNCONSTRAINED, 25 - usual),
-        Method("none, K = 20", {**WORLD_TENSOR, "descriptor": "none"}, usual),
+        Method("none, K = 20", UNCONSTRAINED_WIDE, usual),
         Method("world pca, K = 20", WORLD_PCA_WIDE, usual),
         Method("world split, K = 20", WORLD_SPLIT, usual),
         Method("world tensor, K = 20", WORLD_TENSOR, 25 - usual),
