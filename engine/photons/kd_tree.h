@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kd-tree over a photon map: complete, median splits, leaves of 16 to 32 photons, with the columns queries read
+// The kd-tree over a photon map: complete, median splits, leaves of 8 to 16 photons, with the columns queries read
 // copied into tree order (METHODS §9).
 #pragma once
 

@@ -12,7 +12,7 @@
 #pragma binding coherent uint ranked
 
 // Enough for a typical query's photons; more would be streamed before the first cut could tell that they are too far.
-#define LEAF_LIST_SIZE 24u
+#define LEAF_LIST_SIZE 40u
 #include "photons/place.glsl"
 #include "photons/walk_tree.glsl"
 // A search that kept fewer than k tries a radius with this much more area than its count asks for.

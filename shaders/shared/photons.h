@@ -9,9 +9,9 @@ SHARED_BEGIN
 
 // The kd-tree is complete: node 1 is the root, node i has children 2i and 2i + 1. Photons stand in tiles of TREE_TILE;
 // of T tiles node j of level l (heap index 2^l + j) owns floor(T j / 2^l) … floor(T (j + 1) / 2^l) - 1, so that a tile
-// lies within one leaf. Leaves hold 16 to 32 photons.
+// lies within one leaf. Leaves hold 8 to 16 photons.
 const uint TREE_TILE = 8u;
-const uint TREE_LEAF_PHOTONS = 32u;
+const uint TREE_LEAF_PHOTONS = 16u;
 // Levels a traversal descends at once: one lane tests one of 2^3 descendants.
 const uint TREE_STEP_LEVELS = 3u;
 const uint TREE_FANOUT = 8u;

@@ -14,7 +14,7 @@ USUAL_STEPS = {"random": 20, "sobol": 5}
 
 @dataclass(frozen=True)
 class Method:
-    """A name, the keywords of `PhotonMap.relax` but for the steps, the steps, and whether it is tried on larger maps."""
+    """A name, the keywords of `PhotonMap.relax` but for the steps, those, and if it is tried on larger maps."""
 
     name: str
     keywords: dict[str, Any]

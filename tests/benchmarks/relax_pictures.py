@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Draws the pictures of docs/relaxation.md: the ring's crossing band relaxed in every way, and where photons are held."""
+"""Draws the pictures of docs/relaxation.md: the ring's inner band relaxed in every way, and where photons are held."""
 
 from __future__ import annotations
 

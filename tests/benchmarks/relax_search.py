@@ -57,7 +57,8 @@ def compare_errors(method: Method, emission: str, reference: Reference, count: i
     exact, carried = (average_errors([each.errors for each in timed[search]]) for search in SEARCHES)
     ratios = [a.seconds / b.seconds for a, b in zip(*timed.values(), strict=True)]
     columns = [
-        f"{getattr(exact, name):.4f}, {getattr(carried, name):.4f}" for name in ("rmse", "mean_abs", "smooth", "edge")
+        f"{getattr(exact, name):.3f}, {getattr(carried, name):.3f}"
+        for name in ("rmse", "mean_abs", "smooth", "edge", "inner")
     ]
     spent = [find_median([each.seconds for each in timed[search]]) for search in SEARCHES]
     columns += [f"{spent[0]:.2f}, {spent[1]:.2f}", f"{find_median(ratios):.2f} ({min(ratios):.2f}–{max(ratios):.2f})"]
@@ -95,10 +96,10 @@ def measure(count: int) -> None:
     """Both tables."""
     reference = load_reference()
     print(
-        f"Each cell: exact, carried; means of {SEEDS} maps of {count:,} photons, errors at k = {NEIGHBORS}; seconds are "
+        f"Each cell: exact, carried; means of {SEEDS} maps of {count:,} photons, errors at k = {NEIGHBORS}; seconds: "
         "medians of exact and carried in turn.\n\n"
-        "| emission | method | steps | RMSE | mean abs | smooth | edge | seconds | exact/carried |\n"
-        "|---|---|---|---|---|---|---|---|---|"
+        "| emission | method | steps | RMSE | mean abs | smooth | edge | band | seconds | exact/carried |\n"
+        "|---|---|---|---|---|---|---|---|---|---|"
     )
     for emission in EMISSIONS:
         for method in list_methods(emission):

@@ -15,6 +15,7 @@ from caustic_truth import RED, bin_photons, find_cache, load_truth
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 from scene_data import RING, WINDOW_CELLS, build_cell_centers, load_scene
+from scipy.spatial import cKDTree
 
 import photonloupe as pl
 
@@ -38,6 +39,10 @@ HALO_MARGIN, HALO_STEP = 16, 4
 # The committed line crosses the cusp 8 cm behind its tip, where both branches of the fold enclose the light that has
 # crossed itself: x = -0.08 m ... 0.08 m at z = -0.48 m, the row of cells with this middle.
 LINE_Z, LINE_HALF = -0.48, 0.08  # m
+# The inner band: two arcs behind the fold across which the light that met the wall once more or less ends, steps of
+# 1.2× to 1.8×. Its cells are those where the reference steps so much from the cell before to the cell after, and
+# near them; what survives is found from values less their local mean.
+STEP, STEP_MARGIN, STEP_AWAY, LOCAL = 0.16, 3, 9, 4
 
 
 @dataclass(frozen=True)
@@ -49,6 +54,7 @@ class Errors:
     smooth: float  # RMS of E / reference - 1 over the smooth cells
     edge: float  # sum of |E - reference| over sum of the reference, edge cells
     contrast: float  # of the band on the committed line, 1 = the reference's
+    inner: float  # share of the inner band's local contrast that survives
 
 
 def average_errors(errors: list[Errors]) -> Errors:
@@ -65,6 +71,17 @@ def spread(values: NDArray[Kind], reach: int, pick: np.ufunc = np.maximum) -> ND
     return values
 
 
+def sharpen(values: Doubles) -> Doubles:
+    """Values less the mean of the (2 LOCAL + 1)² cells about each."""
+    size = 2 * LOCAL + 1
+    summed = np.pad(values, LOCAL, mode="edge")
+    for axis in (0, 1):
+        totals = np.insert(np.cumsum(summed, axis), 0, 0.0, axis)
+        count = values.shape[axis]
+        summed = np.take(totals, range(size, size + count), axis) - np.take(totals, range(count), axis)
+    return values - summed / size**2
+
+
 class Reference:
     """Mean irradiance of every cell, (512, 512) [x, z], red, W/m²."""
 
@@ -75,6 +92,8 @@ class Reference:
         self.edge: Mask = self._find_edge()
         self.smooth: Mask = lit & ~spread(self.edge, SMOOTH_MARGIN)
         self.near: Mask = spread(lit, HALO_MARGIN)
+        self.inner: Mask = self._find_inner(lit)
+        self._local = sharpen(self.cells)[self.inner]
 
     def _find_edge(self) -> Mask:
         """Cells near the caustic's curve, and where the rims cut the light."""
@@ -83,6 +102,19 @@ class Reference:
         most = spread(self.cells, JUMP_WINDOW // 2)
         least = spread(self.cells, JUMP_WINDOW // 2, np.minimum)
         return curve | ((most > JUMP * least) & (most > LIT * self.mean))
+
+    def _find_inner(self, lit: Mask) -> Mask:
+        """Cells near the steps of the inner band."""
+        steps = np.zeros(lit.shape, dtype=bool)
+        logs = np.log(np.maximum(self.cells, LIT * self.mean))
+        for axis in (0, 1):
+            steps |= np.abs(np.roll(logs, 1, axis) - np.roll(logs, -1, axis)) > STEP
+        steps &= lit & ~spread(self.edge, STEP_AWAY)
+        return spread(steps, STEP_MARGIN)
+
+    def find_survival(self, cells: Doubles) -> float:
+        """Slope of an estimate against the reference over the inner band, both less their local means."""
+        return float(np.sum(sharpen(cells)[self.inner] * self._local) / np.sum(self._local**2))
 
     def find_contrast(self, cells: Doubles) -> float:
         """(peak - trough)/(peak + trough) on the committed line, where the reference has its peaks and its trough."""
@@ -103,6 +135,7 @@ class Reference:
             smooth=float(np.sqrt(np.mean(relative**2))),
             edge=float(np.abs(difference[self.edge]).sum() / self.cells[self.edge].sum()),
             contrast=self.find_contrast(cells) / self.find_contrast(self.cells),
+            inner=self.find_survival(cells),
         )
 
 
@@ -145,12 +178,16 @@ BLOCK = 8_192
 
 
 def estimate_at(photons: pl.PhotonMap, points: NDArray[np.float32], ks: Sequence[int]) -> dict[int, Doubles]:
-    """Red Epanechnikov estimates (METHODS section 2) for all k from one search; what `irradiance` gives on one plane."""
+    """Red Epanechnikov estimates (METHODS section 2) for all k from one search; on one plane those of `irradiance`.
+
+    SciPy searches: what measures our photons shares no search with what moves them.
+    """
+    tree = cKDTree(np.asarray(photons.positions, dtype=np.float64))
     power = photons.power[:, RED].astype(np.float64)
     estimates = {k: np.empty(len(points)) for k in ks}
     for first in range(0, len(points), BLOCK):
-        ids, distances = photons.neighbors(points[first : first + BLOCK], max(ks) + 1)
-        squares = distances.astype(np.float64) ** 2
+        distances, ids = tree.query(points[first : first + BLOCK], max(ks) + 1, workers=-1)
+        squares = distances**2
         flux = power[ids]
         summed, moment = np.cumsum(flux, axis=1), np.cumsum(flux * squares, axis=1)
         for k in ks:
