@@ -140,11 +140,13 @@ nb::tuple find_near(OpenDevice& open, Photons& photons, std::optional<Points> po
         return query[name].is_none() ? std::vector<float>{} : nb::cast<std::vector<float>>(query[name]);
     };
     const std::vector<float> low = take("low"), high = take("high");
-    const std::span<const double> values = points ? std::span(points->data(), points->size()) : std::span<const double>{};
+    const std::span<const double> values =
+        points ? std::span(points->data(), points->size()) : std::span<const double>{};
     const std::span<const std::uint32_t> named =
         ids ? std::span(ids->data(), ids->size()) : std::span<const std::uint32_t>{};
     const Neighbors found = PythonProgress(std::move(progress)).run([&](const Progress& asked) {
-        return find_in_space(open, photons, values, named, points.has_value(), k, space, beta, center, low, high, asked);
+        return find_in_space(open, photons, values, named, points.has_value(), k, space, beta, center, low, high,
+                             asked);
     });
     return take_neighbors(found, points ? points->shape(0) : ids->size(), k);
 }
@@ -214,10 +216,11 @@ void bind_photons(nb::module_& module) {
     bind_columns(type);
     module.def("photons_from_columns", &make_photons, nb::arg("device"), nb::arg("columns"),
                nb::arg("store") = "caustic", nb::keep_alive<0, 1>(), "Upload checked columns as a photon map.");
-    module.def("find_neighbors", &find_near, nb::arg("device"), nb::arg("photons"), nb::arg("points").none(),
-               nb::arg("ids").none(), nb::arg("k"), nb::arg("query"), nb::arg("progress").none() = nb::none(),
-               "The k nearest photons of points, or of photons by id (n,); exactly one is not None. query: space, beta, "
-               "center, low, high.");
+    module.def(
+        "find_neighbors", &find_near, nb::arg("device"), nb::arg("photons"), nb::arg("points").none(),
+        nb::arg("ids").none(), nb::arg("k"), nb::arg("query"), nb::arg("progress").none() = nb::none(),
+        "The k nearest photons of points, or of photons by id (n,); exactly one is not None. query: space, beta, "
+        "center, low, high.");
     module.def("set_parameters", &set_parameters, nb::arg("device"), nb::arg("photons"), nb::arg("values"),
                nb::arg("periods"), "Replace a map's parameters (n, m); a period of 0: it does not wrap.");
 }

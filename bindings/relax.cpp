@@ -44,8 +44,7 @@ RelaxSettings read_settings(const nb::dict& given) {
     settings.limit = nb::cast<float>(given["limit"]);
     settings.repel = parse_space(nb::cast<std::string>(given["repel"]));
     settings.beta = nb::cast<float>(given["beta"]);
-    settings.search =
-        nb::cast<std::string>(given["search"]) == "carried" ? RadiusSearch::carried : RadiusSearch::exact;
+    settings.search = nb::cast<std::string>(given["search"]) == "carried" ? RadiusSearch::carried : RadiusSearch::exact;
     settings.tree = nb::cast<std::string>(given["tree"]) == "position" ? LayerTree::position : LayerTree::layered;
     settings.diffuse_flux = nb::cast<bool>(given["diffuse_flux"]);
     settings.period = nb::cast<std::array<float, 3>>(given["period"]);

@@ -34,8 +34,8 @@ std::shared_ptr<Photons> Workbench::trace_photons(const Scene& scene, const Trac
         if (std::shared_ptr<Photons> traced = m_traced.lock())
             return traced;
     TracedPhotons traced = photonloupe::trace_photons(m_device, scene, *find_buffers(scene), settings, progress);
-    auto photons =
-        std::make_shared<Photons>(Photons{std::move(traced.map), traced.report, settings.store, std::nullopt, std::nullopt, nullptr});
+    auto photons = std::make_shared<Photons>(
+        Photons{std::move(traced.map), traced.report, settings.store, std::nullopt, std::nullopt, nullptr});
     m_traced = photons;
     m_traced_key = key;
     return photons;
@@ -65,8 +65,8 @@ Neighbors Workbench::find_parameter_neighbors(Photons& photons, std::span<const 
     return find_in_parameter_space(m_device, tree, ask_parameters_at(photons.map, tree, values), k, false, progress);
 }
 
-Neighbors Workbench::find_parameter_neighbors_of(Photons& photons, std::span<const std::uint32_t> ids,
-                                                 std::uint32_t k, const Progress& progress) {
+Neighbors Workbench::find_parameter_neighbors_of(Photons& photons, std::span<const std::uint32_t> ids, std::uint32_t k,
+                                                 const Progress& progress) {
     const ParameterTree& tree = find_parameter_tree(photons, progress);
     return find_in_parameter_space(m_device, tree, ask_parameters_of(photons.map, tree, ids), k, true, progress);
 }
@@ -121,8 +121,8 @@ Relaxation Workbench::start_relaxation(Photons& photons, const Scene* scene, con
                                        const Progress& progress) {
     const KdTree& tree = find_tree(photons, progress);
     const bool constrains = settings.constraint.descriptor != Descriptor::none;
-    const bool needs_parameters = settings.repel == Space::parameter ||
-                                  (constrains && settings.constraint.space == Space::parameter);
+    const bool needs_parameters =
+        settings.repel == Space::parameter || (constrains && settings.constraint.space == Space::parameter);
     LayerTrees trees;
     if (needs_parameters)
         trees.parameters = &find_parameter_tree(photons, progress);

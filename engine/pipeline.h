@@ -78,9 +78,9 @@ private:
     std::shared_ptr<const SceneBuffers> find_buffers(const Scene& scene);
 
     gpu::Device& m_device;
-    std::string m_scene_hash; // of m_scene_buffers
+    std::string m_scene_hash;                            // of m_scene_buffers
     std::shared_ptr<const SceneBuffers> m_scene_buffers; // a relaxation keeps them as long as it lives
-    std::string m_traced_key; // scene and settings of m_traced
+    std::string m_traced_key;                            // scene and settings of m_traced
     std::weak_ptr<Photons> m_traced;
 };
 

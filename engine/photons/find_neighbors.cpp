@@ -49,24 +49,23 @@ Neighbors answer(gpu::Device& device, const Sought& sought, const NeighborQuerie
         device, tree, kernels, order, settings, STAGE,
         [&](gpu::Commands& commands, const gpu::KernelSource& kernel, const QueryBuffers& buffers,
             const shared::NeighborQuery& push, std::uint64_t invocations) {
-            commands.dispatch(
-                kernel,
-                {{"tree_nodes", tree.nodes},
-                 {"tree_positions", tree.positions},
-                 {"tree_normals", tree.normals},
-                 {"tree_parameters", sought.tree_parameters ? *sought.tree_parameters : tree.positions},
-                 {"parameter_periods", sought.periods ? *sought.periods : parameters},
-                 {"query_parameters", parameters},
-                 {"query_layers", layers},
-                 {"range_ends", range_ends},
-                 {"candidates", buffers.candidates},
-                 {"ranked", buffers.ranked},
-                 {"unanswered", buffers.unanswered},
-                 {"queries", points},
-                 {"query_order", buffers.order},
-                 {"neighbor_ids", neighbors.ids},
-                 {"neighbor_distances", neighbors.distances}},
-                push, invocations);
+            commands.dispatch(kernel,
+                              {{"tree_nodes", tree.nodes},
+                               {"tree_positions", tree.positions},
+                               {"tree_normals", tree.normals},
+                               {"tree_parameters", sought.tree_parameters ? *sought.tree_parameters : tree.positions},
+                               {"parameter_periods", sought.periods ? *sought.periods : parameters},
+                               {"query_parameters", parameters},
+                               {"query_layers", layers},
+                               {"range_ends", range_ends},
+                               {"candidates", buffers.candidates},
+                               {"ranked", buffers.ranked},
+                               {"unanswered", buffers.unanswered},
+                               {"queries", points},
+                               {"query_order", buffers.order},
+                               {"neighbor_ids", neighbors.ids},
+                               {"neighbor_distances", neighbors.distances}},
+                              push, invocations);
         },
         progress);
     // A query that reaches more photons than a workgroup may look through is answered one by one.
@@ -173,8 +172,7 @@ Neighbors find_in_parameter_space(gpu::Device& device, const ParameterTree& para
 }
 
 Neighbors find_in_layers(gpu::Device& device, const PhotonMap& photons, const KdTree& tree, const Layers& tree_layers,
-                         const NeighborQueries& queries, std::uint32_t k, bool exclude_self,
-                         const Progress& progress) {
+                         const NeighborQueries& queries, std::uint32_t k, bool exclude_self, const Progress& progress) {
     require_k(k);
     if (tree.count == 0 || queries.points.empty())
         return make_missing(device, queries.points.size(), k);

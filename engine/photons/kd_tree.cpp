@@ -185,8 +185,8 @@ void refit_tree(gpu::Device& device, const KdTree& tree, const std::string& stag
             const std::uint64_t count = std::min(largest, nodes - first);
             const shared::TreeRefit push{photon_count, level, static_cast<std::uint32_t>(first),
                                          static_cast<std::uint32_t>(count)};
-            commands.dispatch({kernel, 64, {}, {}},
-                              {{"tree_positions", tree.positions}, {"tree_nodes", tree.nodes}}, push, count);
+            commands.dispatch({kernel, 64, {}, {}}, {{"tree_positions", tree.positions}, {"tree_nodes", tree.nodes}},
+                              push, count);
         }
     };
     refit_level(tree.leaf_level, "photons/refit_leaves.comp");

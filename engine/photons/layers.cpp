@@ -141,14 +141,16 @@ Layers order_parameters(gpu::Device& device, const PhotonMap& photons, const KdT
         device, STAGE, photons.count, 1 << 14, progress,
         [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
             const Push push{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count), beta, 0};
-            commands.dispatch(
-                {"photons/gather_parameters.comp", 64, {"PARAMETER_ROWS " + std::to_string(columns.count_rows()) + "u"}, {}},
-                {{"tree_positions", tree.positions},
-                 {"parameter_values", columns.values},
-                 {"parameter_radii2", radii2.is_empty() ? layers.reach2 : radii2},
-                 {"tree_parameters", layers.parameters},
-                 {"parameter_reach", layers.reach2}},
-                push, count);
+            commands.dispatch({"photons/gather_parameters.comp",
+                               64,
+                               {"PARAMETER_ROWS " + std::to_string(columns.count_rows()) + "u"},
+                               {}},
+                              {{"tree_positions", tree.positions},
+                               {"parameter_values", columns.values},
+                               {"parameter_radii2", radii2.is_empty() ? layers.reach2 : radii2},
+                               {"tree_parameters", layers.parameters},
+                               {"parameter_reach", layers.reach2}},
+                              push, count);
         });
     return layers;
 }
@@ -160,8 +162,8 @@ gpu::Buffer find_parameter_radii2(gpu::Device& device, const PhotonMap& photons,
     shared::GatherSettings settings = make_gather_settings(parameter_tree.tree, parameter_tree.shape, k - 1);
     settings.flatness = parameter_tree.limit2;
     run_gather(
-        device, parameter_tree.tree, "photons/find_parameter_radius.comp", list_gather_defines(parameter_tree.shape, k - 1),
-        settings, STAGE,
+        device, parameter_tree.tree, "photons/find_parameter_radius.comp",
+        list_gather_defines(parameter_tree.shape, k - 1), settings, STAGE,
         [&](gpu::Commands& commands, const gpu::KernelSource& kernel, const shared::GatherSettings& push,
             const GatherBuffers& buffers, std::uint64_t invocations) {
             commands.dispatch(kernel,

@@ -11,19 +11,19 @@ namespace photonloupe {
 
 // A tree over the three widest parameters, for exact queries in the space of all of them.
 struct ParameterTree {
-    KdTree tree;            // `positions` holds the widest parameters, `normals.w` the emitter
-    GatherShape shape;      // its period is that of those axes
-    gpu::Buffer parameters; // in the tree's order
-    gpu::Buffer periods;    // a float per parameter, 0: it does not wrap
+    KdTree tree;                     // `positions` holds the widest parameters, `normals.w` the emitter
+    GatherShape shape;               // its period is that of those axes
+    gpu::Buffer parameters;          // in the tree's order
+    gpu::Buffer periods;             // a float per parameter, 0: it does not wrap
     std::vector<std::uint32_t> axes; // the parameters that the tree's axes are
     float limit2 = 0;                // beyond every squared distance
 };
 
 // The photons of a tree as kernels gather them.
 struct Layers {
-    gpu::Buffer parameters; // vec4 rows; empty without parameters
-    gpu::Buffer reach2;     // (β·r_q)²
-    gpu::Buffer periods;    // as in ParameterTree
+    gpu::Buffer parameters;              // vec4 rows; empty without parameters
+    gpu::Buffer reach2;                  // (β·r_q)²
+    gpu::Buffer periods;                 // as in ParameterTree
     const gpu::Buffer* ranges = nullptr; // of the nodes of a layered tree
 };
 

@@ -16,15 +16,16 @@ std::vector<std::string> list_defines(const GatherShape& shape, const Constraint
 Constraint measure_constraint(gpu::Device& device, const KdTree& tree, const GatherShape& shape, const Layers& layers,
                               const ConstraintSettings& settings, const gpu::Buffer& radii, const Progress& progress) {
     const std::uint64_t bytes = tree.count * sizeof(glm::vec4);
-    Constraint constraint{gpu::Buffer(device, bytes, "constraint basis"), gpu::Buffer(device, bytes, "constraint basis"),
-                          gpu::Buffer(device, bytes, "gradients"), gpu::Buffer(device, bytes, "constraint radii")};
+    Constraint constraint{gpu::Buffer(device, bytes, "constraint basis"),
+                          gpu::Buffer(device, bytes, "constraint basis"), gpu::Buffer(device, bytes, "gradients"),
+                          gpu::Buffer(device, bytes, "constraint radii")};
     const gpu::Buffer& parameters = layers.parameters.is_empty() ? tree.positions : layers.parameters;
     const gpu::Buffer& reach2 = layers.reach2.is_empty() ? radii : layers.reach2;
     const gpu::Buffer& periods = layers.periods.is_empty() ? radii : layers.periods;
     const auto run = [&](const char* kernel, const auto& run_kernel) {
         run_kernel(
-            device, tree, kernel, list_defines(shape, settings),
-            make_gather_settings(tree, shape, settings.neighbors), "measure constraint",
+            device, tree, kernel, list_defines(shape, settings), make_gather_settings(tree, shape, settings.neighbors),
+            "measure constraint",
             [&](gpu::Commands& commands, const gpu::KernelSource& source, const shared::GatherSettings& chunk,
                 const GatherBuffers& buffers, std::uint64_t invocations) {
                 const shared::DescribeSettings push{chunk, settings.free_at, settings.fixed_at, 0, 0};

@@ -9,7 +9,6 @@
 
 #include "relax/flux_diffusion.h"
 
-
 namespace photonloupe {
 namespace {
 
@@ -48,9 +47,8 @@ float find_spacing(const KdTree& tree) {
 
 } // namespace
 
-Relaxation::Relaxation(gpu::Device& device, const PhotonMap& photons, const KdTree& tree,
-                       const LayerTrees& trees, const RelaxSettings& settings, RelaxSurface surface,
-                       const Progress& progress)
+Relaxation::Relaxation(gpu::Device& device, const PhotonMap& photons, const KdTree& tree, const LayerTrees& trees,
+                       const RelaxSettings& settings, RelaxSurface surface, const Progress& progress)
     : m_device(device), m_photons(photons), m_settings(settings), m_surface(std::move(surface)),
       m_tree(copy_tree(device, trees.layered ? trees.layered->tree : tree)) {
     const std::uint64_t count = photons.count;
@@ -84,8 +82,7 @@ Relaxation::Relaxation(gpu::Device& device, const PhotonMap& photons, const KdTr
     };
     GatherShape constraint_shape = shape;
     if (constraint.descriptor != Descriptor::none) {
-        const Layers layers =
-            find_layers_of(constraint.space, constraint.neighbors, constraint.beta, constraint_shape);
+        const Layers layers = find_layers_of(constraint.space, constraint.neighbors, constraint.beta, constraint_shape);
         m_constraint = measure_constraint(device, m_tree, constraint_shape, layers, constraint, m_radii, progress);
         m_carry = scale_radius2(settings.neighbors, constraint.neighbors);
     }
@@ -123,19 +120,19 @@ void Relaxation::shift_photons() {
 
 void Relaxation::find_surface(const Progress& progress) {
     m_triangles = gpu::Buffer(m_device, m_photons.count * sizeof(std::uint32_t), "photons' triangles");
-    gpu::run_in_chunks(m_device, STAGE, m_photons.count, FIRST_CHUNK, progress,
-                       [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
-                           const shared::MoveSettings push{static_cast<std::uint32_t>(first),
-                                                           static_cast<std::uint32_t>(count), 0, 0};
-                           commands.dispatch({"relax/find_surface.comp", GROUP, {}, {}},
-                                             {{"tree_positions", m_tree.positions},
-                                              {"tree_normals", m_tree.normals},
-                                              {"power_object", m_photons.power_object},
-                                              {"radii", m_radii},
-                                              {"geometry", m_surface.scene->geometry},
-                                              {"photon_triangles", m_triangles}},
-                                             push, count);
-                       });
+    gpu::run_in_chunks(
+        m_device, STAGE, m_photons.count, FIRST_CHUNK, progress,
+        [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
+            const shared::MoveSettings push{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count), 0, 0};
+            commands.dispatch({"relax/find_surface.comp", GROUP, {}, {}},
+                              {{"tree_positions", m_tree.positions},
+                               {"tree_normals", m_tree.normals},
+                               {"power_object", m_photons.power_object},
+                               {"radii", m_radii},
+                               {"geometry", m_surface.scene->geometry},
+                               {"photon_triangles", m_triangles}},
+                              push, count);
+        });
 }
 
 void Relaxation::repel(float tau, const Progress& progress) {
@@ -227,23 +224,23 @@ void Relaxation::move(const Progress& progress) {
         defines.emplace_back("HAS_SURFACE");
     const bool is_constrained = m_settings.constraint.descriptor != Descriptor::none;
     const gpu::Buffer& unused = m_next;
-    gpu::run_in_chunks(m_device, STAGE, m_photons.count, FIRST_CHUNK, progress,
-                       [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
-                           const shared::MoveSettings push{static_cast<std::uint32_t>(first),
-                                                           static_cast<std::uint32_t>(count), 0, 0};
-                           commands.dispatch({"relax/move_photons.comp", GROUP, defines, {}},
-                                             {{"tree_positions_before", m_tree.positions},
-                                              {"tree_positions_after", m_next},
-                                              {"moves", m_moves},
-                                              {"power_object", m_photons.power_object},
-                                              {"geometry", scene ? scene->geometry : m_tree.nodes},
-                                              {"shading_normals", scene ? scene->normals : m_tree.nodes},
-                                              {"tree_normals", m_tree.normals},
-                                              {"photon_triangles", scene ? m_triangles : m_radii},
-                                              {"constraint_along", is_constrained ? m_constraint.along : unused},
-                                              {"constraint_across", is_constrained ? m_constraint.across : unused}},
-                                             push, count);
-                       });
+    gpu::run_in_chunks(
+        m_device, STAGE, m_photons.count, FIRST_CHUNK, progress,
+        [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
+            const shared::MoveSettings push{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count), 0, 0};
+            commands.dispatch({"relax/move_photons.comp", GROUP, defines, {}},
+                              {{"tree_positions_before", m_tree.positions},
+                               {"tree_positions_after", m_next},
+                               {"moves", m_moves},
+                               {"power_object", m_photons.power_object},
+                               {"geometry", scene ? scene->geometry : m_tree.nodes},
+                               {"shading_normals", scene ? scene->normals : m_tree.nodes},
+                               {"tree_normals", m_tree.normals},
+                               {"photon_triangles", scene ? m_triangles : m_radii},
+                               {"constraint_along", is_constrained ? m_constraint.along : unused},
+                               {"constraint_across", is_constrained ? m_constraint.across : unused}},
+                              push, count);
+        });
     std::swap(m_tree.positions, m_next);
     refit_tree(m_device, m_tree, STAGE);
 }
@@ -314,7 +311,8 @@ RelaxedColumns Relaxation::read() const {
     std::vector<glm::vec4> old_normals = m_photons.normal_index.read<glm::vec4>(count);
     std::vector<glm::vec4> power = m_photons.power_object.read<glm::vec4>(count);
     std::vector<glm::vec4> placed(count);
-    const std::vector<glm::vec4> fluxes = m_power.is_empty() ? std::vector<glm::vec4>{} : m_power.read<glm::vec4>(count);
+    const std::vector<glm::vec4> fluxes =
+        m_power.is_empty() ? std::vector<glm::vec4>{} : m_power.read<glm::vec4>(count);
     columns.drift.resize(3 * count);
     for (std::size_t at = 0; at < count; ++at) {
         const std::uint32_t id = std::bit_cast<std::uint32_t>(positions[at].w);
@@ -322,8 +320,8 @@ RelaxedColumns Relaxation::read() const {
             const double drift = static_cast<double>(positions[at][axis]) - start[at][axis];
             columns.drift[3 * id + axis] = static_cast<float>(drift);
             // What did not move keeps its bits, whatever the origins.
-            placed[id][axis] = drift == 0.0 ? before[id][axis]
-                                            : static_cast<float>(positions[at][axis] - m_shift[axis]);
+            placed[id][axis] =
+                drift == 0.0 ? before[id][axis] : static_cast<float>(positions[at][axis] - m_shift[axis]);
             old_normals[id][axis] = normals[at][axis];
         }
         placed[id].w = before[id].w;

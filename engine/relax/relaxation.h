@@ -30,12 +30,12 @@ struct StepReport {
 
 // What came of it, by photon id.
 struct RelaxedColumns {
-    PhotonMap map;                      // without paths
-    std::vector<float> drift;           // 3 a photon, metres since the constraint was measured
-    std::vector<float> pressure;        // of the last step
-    std::vector<float> basis;           // 6 a photon: u_b, v_b
-    std::vector<float> weights;         // 2: w_u, w_v
-    std::vector<float> gradient;        // 3: ∇f/f in 1/m
+    PhotonMap map;               // without paths
+    std::vector<float> drift;    // 3 a photon, metres since the constraint was measured
+    std::vector<float> pressure; // of the last step
+    std::vector<float> basis;    // 6 a photon: u_b, v_b
+    std::vector<float> weights;  // 2: w_u, w_v
+    std::vector<float> gradient; // 3: ∇f/f in 1/m
     std::vector<float> one_sidedness;
     std::uint64_t off_surface_count = 0; // photons that moved in their tangent plane
 };
@@ -74,19 +74,19 @@ private:
     const PhotonMap& m_photons;
     RelaxSettings m_settings;
     RelaxSurface m_surface;
-    KdTree m_tree;          // of the photons where they are
-    gpu::Buffer m_start;    // where they were, tree order
-    gpu::Buffer m_next;     // where a step puts them
-    gpu::Buffer m_radii;    // squared, of the last query
-    gpu::Buffer m_moves;    // xyz metres, w pressure
+    KdTree m_tree;       // of the photons where they are
+    gpu::Buffer m_start; // where they were, tree order
+    gpu::Buffer m_next;  // where a step puts them
+    gpu::Buffer m_radii; // squared, of the last query
+    gpu::Buffer m_moves; // xyz metres, w pressure
     gpu::Buffer m_triangles;
     std::shared_ptr<const LayeredTree> m_layered;
     Layers m_layers; // of repulsion
     std::uint32_t m_parameter_rows = 0;
-    GatherShape m_shape;    // of repulsion
-    gpu::Buffer m_power;    // rgb, tree order; with flux diffusion
+    GatherShape m_shape; // of repulsion
+    gpu::Buffer m_power; // rgb, tree order; with flux diffusion
     Constraint m_constraint;
-    float m_carry = 0;      // share of the squared radii that the next query looks for
+    float m_carry = 0;               // share of the squared radii that the next query looks for
     std::array<double, 3> m_shift{}; // of positions: the map's origin less the scene's
     float m_spacing = 0;
     std::uint32_t m_step = 0;

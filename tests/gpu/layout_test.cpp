@@ -23,11 +23,12 @@ namespace {
     { #type, measure_host_struct < shared::type>() }
 
 const std::map<std::string, HostStruct> HOST_STRUCTS{
-    STRUCT(Triangle),     STRUCT(TriangleNormals), STRUCT(Material),      STRUCT(Light),       STRUCT(BvhNode),
-    STRUCT(SceneHeader),  STRUCT(TraceSettings),   STRUCT(LightEmission), STRUCT(PathSummary), STRUCT(BalanceSum),
-    STRUCT(TreeNode),     STRUCT(TreeBuild),       STRUCT(NeighborQuery), STRUCT(CameraFrame), STRUCT(EyeSettings),
-    STRUCT(FilmSettings), STRUCT(PlotSettings),    STRUCT(TreeRefit),     STRUCT(GatherSettings),
-    STRUCT(RepelSettings), STRUCT(DescribeSettings), STRUCT(MoveSettings),
+    STRUCT(Triangle),         STRUCT(TriangleNormals), STRUCT(Material),       STRUCT(Light),
+    STRUCT(BvhNode),          STRUCT(SceneHeader),     STRUCT(TraceSettings),  STRUCT(LightEmission),
+    STRUCT(PathSummary),      STRUCT(BalanceSum),      STRUCT(TreeNode),       STRUCT(TreeBuild),
+    STRUCT(NeighborQuery),    STRUCT(CameraFrame),     STRUCT(EyeSettings),    STRUCT(FilmSettings),
+    STRUCT(PlotSettings),     STRUCT(TreeRefit),       STRUCT(GatherSettings), STRUCT(RepelSettings),
+    STRUCT(DescribeSettings), STRUCT(MoveSettings),
 };
 
 std::vector<std::uint32_t> compile(const KernelVariant& variant, std::uint64_t by_address = 0) {
