@@ -12,6 +12,7 @@ import build_tree
 import caustic_error
 import estimate_irradiance
 import find_neighbors
+import relax
 import start_up
 import trace_paths
 from measure import Subject, print_subject
@@ -24,6 +25,7 @@ SUBJECTS: dict[str, Callable[[], Subject]] = {
     "build_tree": build_tree.measure,
     "find_neighbors": find_neighbors.measure,
     "estimate_irradiance": estimate_irradiance.measure,
+    "relax": relax.measure,
     "caustic_error": caustic_error.measure,
     "start_up": start_up.measure,
 }
