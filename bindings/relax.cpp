@@ -92,7 +92,7 @@ nb::tuple read(OpenRelaxation& open) {
     nb::dict state;
     state["drift"] = own_array(std::move(columns.drift), 3);
     state["pressure"] = own_array(std::move(columns.pressure));
-    if (!columns.basis.empty()) {
+    if (columns.has_constraint) {
         const std::size_t count = columns.weights.size() / 2;
         state["constraint_basis"] = own_pixels(std::move(columns.basis), count, 2);
         state["constraint_weights"] = own_array(std::move(columns.weights), 2);

@@ -94,21 +94,23 @@ shared::GatherSettings make_gather_settings(const KdTree& tree, const GatherShap
 
 namespace {
 
-// One way to run a kernel: how many photons, and how many of them a workgroup of one subgroup takes.
+// One way to run a kernel: how many photons, how many of them a workgroup of one subgroup takes, and flags for them.
 struct GatherRun {
     gpu::KernelSource kernel;
     std::uint64_t total;
     std::uint64_t per_group;
+    std::uint64_t flag_count;
 };
 
-// Runs it; returns the flags of the subgroups' runs of photons that were left unanswered.
-std::vector<std::uint32_t> gather_once(gpu::Device& device, const KdTree& tree, const GatherRun& run,
+// Runs it; returns the flags, set where photons were left unanswered.
+std::vector<std::uint32_t> gather_once(gpu::Device& device, const GatherRun& run,
                                        const gpu::Buffer& singles, shared::GatherSettings settings,
                                        const std::string& stage, const GatherDispatch& dispatch,
                                        const Progress& progress) {
     const std::uint32_t width = device.limits().subgroup_size;
-    const std::uint64_t runs = (tree.count + width - 1) / width;
-    const gpu::Buffer unanswered = gpu::make_buffer(device, std::vector<std::uint32_t>(runs), "unanswered");
+    // All flags are set: a workgroup that the device stops for its loop turns clears none.
+    const gpu::Buffer unanswered =
+        gpu::make_buffer(device, std::vector<std::uint32_t>(run.flag_count, 1), "unanswered");
     gpu::run_in_chunks(
         device, stage, run.total, run.per_group * FIRST_GROUPS, progress,
         [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
@@ -118,7 +120,7 @@ std::vector<std::uint32_t> gather_once(gpu::Device& device, const KdTree& tree, 
                      (count + run.per_group - 1) / run.per_group * width);
         },
         run.per_group * device.limits().max_group_count);
-    return unanswered.read<std::uint32_t>(runs);
+    return unanswered.read<std::uint32_t>(run.flag_count);
 }
 
 bool has_flag(const std::vector<std::uint32_t>& flags) {
@@ -142,7 +144,8 @@ std::vector<std::uint32_t> find_unanswered(gpu::Device& device, const KdTree& tr
     const std::uint32_t width = device.limits().subgroup_size;
     settings.batches = BATCHES;
     const gpu::Buffer none = gpu::make_buffer(device, std::vector<std::uint32_t>{0}, "single photons");
-    return list_flagged(gather_once(device, tree, {kernel, tree.count, std::uint64_t{width} * BATCHES}, none, settings,
+    return list_flagged(gather_once(device,
+                                    {kernel, tree.count, std::uint64_t{width} * BATCHES, (tree.count + width - 1) / width}, none, settings,
                                     stage, dispatch, progress),
                         width, tree.count);
 }
@@ -166,7 +169,7 @@ bool try_gather(gpu::Device& device, const KdTree& tree, const std::string& kern
     std::vector<std::string> singly = defines;
     singly.emplace_back("SINGLY");
     const gpu::Buffer singles = gpu::make_buffer(device, left, "single photons");
-    return !has_flag(gather_once(device, tree, {{kernel, 0, singly, {}}, left.size(), 1}, singles, settings, stage,
+    return !has_flag(gather_once(device, {{kernel, 0, singly, {}}, left.size(), 1, left.size()}, singles, settings, stage,
                                  dispatch, progress));
 }
 
@@ -183,7 +186,7 @@ void run_gather_singly(gpu::Device& device, const KdTree& tree, const std::strin
     if (tree.count == 0)
         return;
     const gpu::Buffer none = gpu::make_buffer(device, std::vector<std::uint32_t>{0}, "single photons");
-    if (has_flag(gather_once(device, tree, {{kernel, 0, defines, {}}, tree.count, 1}, none, settings, stage, dispatch,
+    if (has_flag(gather_once(device, {{kernel, 0, defines, {}}, tree.count, 1, tree.count}, none, settings, stage, dispatch,
                              progress)))
         refuse_crowd(stage);
 }

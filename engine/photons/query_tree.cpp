@@ -196,6 +196,10 @@ std::vector<std::uint32_t> run_queries(gpu::Device& device, const KdTree& tree, 
     const gpu::Buffer unanswered(device, order.size() * sizeof(std::uint32_t), "unanswered queries");
     std::vector<std::uint32_t> left(order.begin(), order.end());
     for (const QueryRun& run : plan_runs(device.limits(), kernels)) {
+        // All flags are set: a workgroup that the device stops for its loop turns clears none.
+        gpu::Commands commands(device, stage);
+        commands.fill(unanswered, 1);
+        commands.run();
         run_once(device, run, left, unanswered, settings, stage, dispatch, progress);
         const std::vector<std::uint32_t> flags = unanswered.read<std::uint32_t>(order.size());
         std::erase_if(left, [&](std::uint32_t query) { return flags[query] == 0; });

@@ -342,7 +342,8 @@ void Relaxation::read_state(RelaxedColumns& columns, const std::vector<glm::vec4
     if (m_surface.scene && count)
         for (const std::uint32_t triangle : m_triangles.read<std::uint32_t>(count))
             columns.off_surface_count += triangle == shared::NO_TRIANGLE;
-    if (m_settings.constraint.descriptor == Descriptor::none || count == 0)
+    columns.has_constraint = m_settings.constraint.descriptor != Descriptor::none;
+    if (!columns.has_constraint || count == 0)
         return;
     const std::vector<glm::vec4> along = m_constraint.along.read<glm::vec4>(count);
     const std::vector<glm::vec4> across = m_constraint.across.read<glm::vec4>(count);

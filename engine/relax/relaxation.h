@@ -33,6 +33,7 @@ struct RelaxedColumns {
     PhotonMap map;               // without paths
     std::vector<float> drift;    // 3 a photon, metres since the constraint was measured
     std::vector<float> pressure; // of the last step
+    bool has_constraint = false;
     std::vector<float> basis;    // 6 a photon: u_b, v_b
     std::vector<float> weights;  // 2: w_u, w_v
     std::vector<float> gradient; // 3: ∇f/f in 1/m

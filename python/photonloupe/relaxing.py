@@ -120,7 +120,7 @@ def check_settings(
     for name, value in (("constraint", space), ("repel", repel)):
         if value == "parameter" and not has_parameters:
             raise ArgumentError(f'{name}="parameter" needs parameters; set_parameters() or a script sets them')
-    best = find_best(str(photons.settings.get("emission", "random")), space)
+    best = find_best(str(photons.settings.get("emission", "random")))
     descriptor = check_choice("descriptor", best["descriptor"] if descriptor is None else descriptor, DESCRIPTORS)
     k = CONSTRAINT_NEIGHBORS.get(descriptor, DEFAULT_CONSTRAINT_NEIGHBORS)
     k = check_count(
@@ -178,22 +178,13 @@ def _read_numbers(name: str, value: Any, count: int) -> tuple[Any, ...]:
     return numbers
 
 
-def find_best(emission: str, space: str) -> dict[str, Any]:
+def find_best(emission: str) -> dict[str, Any]:
     """Return the settings with the least error of all tried on the ring (docs/relaxation.md)."""
-    is_sobol = emission == "sobol"
-    if space == "parameter":
-        return {
-            "steps": 5 if is_sobol else 20,
-            "neighbors": 20,
-            "over_relaxation": (1.0, 1.0),
-            "descriptor": "tensor",
-            "beta": 10.0,
-        }
     return {
-        "steps": 5 if is_sobol else 20,
+        "steps": 5 if emission == "sobol" else 20,
         "neighbors": 20,
         "over_relaxation": (1.0, 1.0),
-        "descriptor": "pca" if is_sobol else "tensor",
+        "descriptor": "tensor",
         "beta": 10.0,
     }
 

@@ -13,7 +13,7 @@ bool has_coincident(bool suspects, uint position, uint photon_count, uint k) {
     uint count = 0u;
     uint tiles = subgroupAny(suspects) ? span : 0u;
     for (uint tile = 0u; tile < tiles; ++tile) {
-        ++turns;
+        turns += WIDTH + 1u;
         uint at = first + tile * WIDTH + LANE;
         Candidate mine = load_candidate(min(at, photon_count - 1u), at < photon_count);
         for (uint lane = 0u; lane < WIDTH; ++lane) count += uint(measure_candidate(share_candidate(mine, lane)) == 0.0);

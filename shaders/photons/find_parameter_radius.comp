@@ -28,6 +28,6 @@ void main() {
         if (has_photon) {
             parameter_radii2[my_photon.photon] = am_unset ? INFINITY : r2;
         }
-        report_turn(has_photon, has_turns_left(), position);
+        report_turn(settings, has_photon, has_turns_left(), position);
     }
 }

@@ -13,6 +13,7 @@
 
 // A place so far off that nobody reaches it, whose square is still a float.
 #define FAR_PLACE Place(1e18)
+const float FAR_BOUND = 1e17;
 
 // Rounding of wrapped differences, as a share of the period.
 const float WRAP_ROUNDING = 4e-7;

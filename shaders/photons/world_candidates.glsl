@@ -73,6 +73,9 @@ float measure_candidate(Candidate other) {
 #else
     float measure = measure_on_surface(d, my_normal, other.normal, my_flatness);
 #endif
+#ifdef PERIODIC
+    measure = other.place.x < FAR_BOUND ? measure : INFINITY; // wrapped, a far place may be near
+#endif
 #ifdef PARAMETER_COUNT
     bool same_layer = am_unset ? is_nan(other.parameters.q[0])
                                : measure_parameters(my_photon.parameters, other.parameters) <= my_reach2;

@@ -47,6 +47,6 @@ void main() {
         weight_sum = 0.0;
         stream_members(has_photon && my_r2 > 0.0, settings.photon_count, settings.leaf_level, my_r2, 0.0);
         if (has_photon) diffused_power[position] = vec4(weight_sum > 0.0 ? power_sum / weight_sum : my_power, 0.0);
-        report_turn(has_photon, has_turns_left(), position);
+        report_turn(settings, has_photon, has_turns_left(), position);
     }
 }

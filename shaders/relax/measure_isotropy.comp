@@ -64,6 +64,6 @@ void main() {
         if (has_photon) {
             axis_ratios[my_photon.photon] = has_ratio ? find_ratio() : uintBitsToFloat(0x7fc00000u);
         }
-        report_turn(has_photon, has_turns_left(), position);
+        report_turn(settings, has_photon, has_turns_left(), position);
     }
 }

@@ -79,6 +79,6 @@ void main() {
             describe_photon(position);
             radii[position] = my_gathered.r2;
         }
-        report_turn(has_photon, has_turns_left(), position);
+        report_turn(settings.gather, has_photon, has_turns_left(), position);
     }
 }

@@ -10,7 +10,7 @@
 #include "relax/write_constraint.glsl"
 #pragma binding readonly vec4 offsets
 #pragma binding readonly vec4 member_radii
-#pragma binding writeonly uint unanswered // a flag for each subgroup's run of photons
+#pragma binding writeonly uint unanswered // a flag for each photon, set beforehand
 
 layout(push_constant) uniform Push { DescribeSettings settings; };
 
@@ -156,6 +156,6 @@ void main() {
     if (size == 0.0 || r == 0.0) weight = 0.0;
     if (LANE == 0u) {
         write_constraint(position, own.w, mean, mean, weight);
-        if (!has_turns_left()) unanswered[position / WIDTH] = 1u;
+        if (has_turns_left()) unanswered[position] = 0u;
     }
 }

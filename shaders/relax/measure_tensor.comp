@@ -54,6 +54,6 @@ void main() {
             write_constraint(position, own.w, project_vector(own.xyz), e.axis,
                              ramp(value, settings.free_at, settings.fixed_at));
         }
-        report_turn(has_photon, has_turns_left(), position);
+        report_turn(settings.gather, has_photon, has_turns_left(), position);
     }
 }

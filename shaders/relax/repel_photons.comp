@@ -54,6 +54,6 @@ void main() {
             moves[position] = move;
             radii[position] = next2;
         }
-        report_turn(has_photon, has_turns_left(), position);
+        report_turn(settings.gather, has_photon, has_turns_left(), position);
     }
 }

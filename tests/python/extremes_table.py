@@ -59,6 +59,45 @@ CASES: dict[str, tuple[str, str]] = {
     "emitted-limit": ("2³⁰ + 1 photons to emit", "refused: at most 2³⁰"),
     "k-limit": ("k = 0 and 1001", "refused: k is 1 to 1000"),
     "id-limit": ("photon id 2³¹", "refused by row"),
+    "parameters-not-finite": ("NaN and ±inf in parameters", "NaN: the photon has none; inf: refused by row and column"),
+    "parameters-limit": ("0 and 14 parameters", "refused: 1 to 13"),
+    "parameters-unset": (
+        "parameters of no photon set",
+        "no neighbors in parameter space; layers are the emitters, relaxed as the twin's; no β",
+    ),
+    "emitter-each": ("an emitter for each of 300 photons", "no neighbors in their layers; no photon moves"),
+    "signature": (
+        "a parameter of 3 values over 3,000 photons",
+        "neighbors tie by id; layers are the values: constraint as the twin's",
+    ),
+    "parameters-seam": ("parameters on both sides of a periodic seam", "relaxed as if it were nowhere"),
+    "beta": ("β = 0, 10⁻³, 10⁶", "constraint and moves as the twin's"),
+    "layers-k": ("k = 1 and k = 998 of 300 photons", "neighbors in parameter space and in layers as the twin's"),
+    "relax-few": ("0, 1, 2, K + 1, K + 2 photons relaxed, K = 6", "moves as the twin's"),
+    "relax-k": ("K = 1 and K = 998 of 300 photons", "moves as the twin's"),
+    "relax-k-limit": ("K = 0, 999; constraint from 11, 999 photons", "refused: 1 to 998, 12 to 998"),
+    "relax-one-point": (
+        "10,000 photons at one point relaxed",
+        "isotropy 1, nothing held, no gradient; they part by what floats tell apart",
+    ),
+    "relax-two-points": ("500 photons at each of two points", "stay finite: largest move as a share of their distance"),
+    "relax-one-line": (
+        "2,000 photons on one line relaxed",
+        "isotropy 0: held across the line, and stay on it; weights as the twin's",
+    ),
+    "relax-clusters": ("two clusters of 500 photons, 10⁴ sizes apart", "moves as the twin's"),
+    "beta-degenerate": (
+        "axis ratios of photons at one point, on one line",
+        "none: refused by name; 0: refused, no β is large enough",
+    ),
+    "relax-flux": ("flux 10⁻³⁰ to 10³⁰ W relaxed", "same moves; fluxes stay to the bit, and keep their sum when diffused"),
+    "relax-scale": ("photons scaled by 10⁻⁶, 10⁻³, 10³, 10⁶ relaxed", "moves as the twin's"),
+    "relax-scale-bits": ("photons scaled by 2⁻²⁰, 2²⁰ relaxed", "the same bits, scaled"),
+    "relax-offset": ("photons 10⁶ from the origin relaxed", "moves as the twin's"),
+    "relax-runaway": (
+        "10 steps, λ = 2, no limiter, no surface, photons of a sphere",
+        "finite; the farthest flies so many radii",
+    ),
 }
 
 
