@@ -27,9 +27,10 @@ std::uint32_t size_shell(std::uint32_t k) {
     return std::clamp(k + 2, SMALLEST_SHELL, LARGEST_SHELL);
 }
 
-std::string write_each_kept(std::uint32_t size) {
-    std::string text = "EACH_KEPT(DO)";
-    for (std::uint32_t i = 0; i < size; ++i)
+// A macro that calls its argument with 0 … count - 1: loops would count against the device's limit of turns.
+std::string write_each(const std::string& name, std::uint32_t count) {
+    std::string text = name + "(DO)";
+    for (std::uint32_t i = 0; i < count; ++i)
         text += " DO(" + std::to_string(i) + ")";
     return text;
 }
@@ -58,7 +59,8 @@ std::vector<std::string> list_parameter_defines(const GatherShape& shape) {
     if (shape.parameter_count == 0)
         return {};
     std::vector<std::string> defines{"PARAMETER_COUNT " + std::to_string(shape.parameter_count) + "u",
-                                     "PARAMETER_ROWS " + std::to_string((shape.parameter_count + 3) / 4) + "u"};
+                                     "PARAMETER_ROWS " + std::to_string((shape.parameter_count + 3) / 4) + "u",
+                                     write_each("EACH_PARAMETER", shape.parameter_count)};
     if (shape.has_periodic_parameters)
         defines.emplace_back("PERIODIC_PARAMETERS");
     if (!shape.range_axes.empty()) {
@@ -72,7 +74,7 @@ std::vector<std::string> list_parameter_defines(const GatherShape& shape) {
 
 std::vector<std::string> list_gather_defines(const GatherShape& shape, std::uint32_t k) {
     const std::uint32_t size = size_shell(k);
-    std::vector<std::string> defines{"SHELL_SIZE " + std::to_string(size) + "u", write_each_kept(size)};
+    std::vector<std::string> defines{"SHELL_SIZE " + std::to_string(size) + "u", write_each("EACH_KEPT", size)};
     if (!shape.flat_axes.empty())
         defines.push_back("FLAT_AXES " + shape.flat_axes);
     if (shape.period != std::array<float, 3>{})
@@ -103,10 +105,9 @@ struct GatherRun {
 };
 
 // Runs it; returns the flags, set where photons were left unanswered.
-std::vector<std::uint32_t> gather_once(gpu::Device& device, const GatherRun& run,
-                                       const gpu::Buffer& singles, shared::GatherSettings settings,
-                                       const std::string& stage, const GatherDispatch& dispatch,
-                                       const Progress& progress) {
+std::vector<std::uint32_t> gather_once(gpu::Device& device, const GatherRun& run, const gpu::Buffer& singles,
+                                       shared::GatherSettings settings, const std::string& stage,
+                                       const GatherDispatch& dispatch, const Progress& progress) {
     const std::uint32_t width = device.limits().subgroup_size;
     // All flags are set: a workgroup that the device stops for its loop turns clears none.
     const gpu::Buffer unanswered =
@@ -144,10 +145,10 @@ std::vector<std::uint32_t> find_unanswered(gpu::Device& device, const KdTree& tr
     const std::uint32_t width = device.limits().subgroup_size;
     settings.batches = BATCHES;
     const gpu::Buffer none = gpu::make_buffer(device, std::vector<std::uint32_t>{0}, "single photons");
-    return list_flagged(gather_once(device,
-                                    {kernel, tree.count, std::uint64_t{width} * BATCHES, (tree.count + width - 1) / width}, none, settings,
-                                    stage, dispatch, progress),
-                        width, tree.count);
+    return list_flagged(
+        gather_once(device, {kernel, tree.count, std::uint64_t{width} * BATCHES, (tree.count + width - 1) / width},
+                    none, settings, stage, dispatch, progress),
+        width, tree.count);
 }
 
 [[noreturn]] void refuse_crowd(const std::string& stage) {
@@ -169,8 +170,8 @@ bool try_gather(gpu::Device& device, const KdTree& tree, const std::string& kern
     std::vector<std::string> singly = defines;
     singly.emplace_back("SINGLY");
     const gpu::Buffer singles = gpu::make_buffer(device, left, "single photons");
-    return !has_flag(gather_once(device, {{kernel, 0, singly, {}}, left.size(), 1, left.size()}, singles, settings, stage,
-                                 dispatch, progress));
+    return !has_flag(gather_once(device, {{kernel, 0, singly, {}}, left.size(), 1, left.size()}, singles, settings,
+                                 stage, dispatch, progress));
 }
 
 void run_gather(gpu::Device& device, const KdTree& tree, const std::string& kernel,
@@ -186,8 +187,8 @@ void run_gather_singly(gpu::Device& device, const KdTree& tree, const std::strin
     if (tree.count == 0)
         return;
     const gpu::Buffer none = gpu::make_buffer(device, std::vector<std::uint32_t>{0}, "single photons");
-    if (has_flag(gather_once(device, {{kernel, 0, defines, {}}, tree.count, 1, tree.count}, none, settings, stage, dispatch,
-                             progress)))
+    if (has_flag(gather_once(device, {{kernel, 0, defines, {}}, tree.count, 1, tree.count}, none, settings, stage,
+                             dispatch, progress)))
         refuse_crowd(stage);
 }
 

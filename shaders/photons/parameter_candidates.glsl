@@ -55,6 +55,5 @@ void take_photon(uint position, vec4 widest_periods, float limit2) {
     my_photon = load_candidate(position, true);
     my_widest = take_place(tree_positions_at(position));
     my_limit2 = limit2;
-    am_unset = false;
-    for (uint i = 0u; i < PARAMETER_COUNT; ++i) am_unset = am_unset || is_nan(my_photon.parameters.q[i]);
+    am_unset = is_unset(my_photon.parameters);
 }

@@ -44,15 +44,12 @@ struct Candidate {
 #if SPACE != 0
 Parameters unpack_rows(uint index, bool is_end) {
     Parameters p;
-    for (uint row = 0u; row < PARAMETER_ROWS; ++row) {
 #ifdef LAYER_RANGES
-        vec4 values = is_end ? range_ends[row] : query_parameters[row];
+#define UNPACK_PARAMETER(i) p.q[i] = is_end ? range_ends[i / 4][i % 4] : query_parameters[i / 4][i % 4];
 #else
-        vec4 values = query_parameters[PARAMETER_ROWS * index + row];
+#define UNPACK_PARAMETER(i) p.q[i] = query_parameters[PARAMETER_ROWS * index + i / 4][i % 4];
 #endif
-        for (uint c = 0u; c < 4u; ++c)
-            if (4u * row + c < PARAMETER_COUNT) p.q[4u * row + c] = values[c];
-    }
+    EACH_PARAMETER(UNPACK_PARAMETER)
     return p;
 }
 #endif
@@ -66,8 +63,7 @@ Query load_query(uint index, vec4 given, bool exclude_self) {
     query.emitter = floatBitsToUint(layer.x);
     query.reach2 = layer.y;
     query.parameters = unpack_rows(index, false);
-    query.is_unset = false;
-    for (uint i = 0u; i < PARAMETER_COUNT; ++i) query.is_unset = query.is_unset || is_nan(query.parameters.q[i]);
+    query.is_unset = is_unset(query.parameters);
 #ifdef LAYER_RANGES
     query.ends = unpack_rows(index, true);
 #endif
@@ -107,19 +103,15 @@ Candidate share_candidate(Candidate mine, uint lane) {
 bool is_in_layer(Query query, Candidate candidate) {
 #ifdef LAYER_RANGES
     bool inside = true;
-    for (uint i = 0u; i < PARAMETER_COUNT; ++i) {
-        float q = candidate.parameters.q[i];
-        bool above = q >= query.parameters.q[i];
-        bool below = q <= query.ends.q[i];
-        // A range that ends before it begins goes over the seam.
-        inside = inside && (query.parameters.q[i] <= query.ends.q[i] ? above && below : above || below);
-    }
+    // A range that ends before it begins goes over the seam.
+#define TEST_RANGE(i) { float q = candidate.parameters.q[i]; \
+        bool above = q >= query.parameters.q[i], below = q <= query.ends.q[i]; \
+        inside = inside && (query.parameters.q[i] <= query.ends.q[i] ? above && below : above || below); }
+    EACH_PARAMETER(TEST_RANGE)
     return inside;
 #else
     bool is_near = measure_parameters(query.parameters, candidate.parameters) <= query.reach2;
-    bool is_unset = false;
-    for (uint i = 0u; i < PARAMETER_COUNT; ++i) is_unset = is_unset || is_nan(candidate.parameters.q[i]);
-    return candidate.emitter == query.emitter && (query.is_unset ? is_unset : is_near);
+    return candidate.emitter == query.emitter && (query.is_unset ? is_unset(candidate.parameters) : is_near);
 #endif
 }
 #endif

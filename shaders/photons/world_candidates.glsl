@@ -96,17 +96,15 @@ void set_ranges(bool takes_part) {
     float reach = am_unset ? INFINITY : sqrt(my_reach2);
     vec4 lo = vec4(layer, vec3(-INFINITY)), hi = vec4(layer, vec3(INFINITY));
     const uint axes[3] = TREE_RANGES; // the parameters' numbers; beyond PARAMETER_COUNT: none
-    for (uint i = 0u; i < 3u; ++i)
-        if (axes[i] < PARAMETER_COUNT && reach < INFINITY) {
-            float q = my_photon.parameters.q[axes[i]];
-            float slack = RANGE_ROUNDING * (abs(q) + reach);
-            lo[i + 1u] = q - reach - slack;
-            hi[i + 1u] = q + reach + slack;
-        }
-    for (uint i = 0u; i < 4u; ++i) {
-        range_lo[i] = subgroupMin(takes_part ? lo[i] : INFINITY);
-        range_hi[i] = subgroupMax(takes_part ? hi[i] : -INFINITY);
-    }
+#define SET_RANGE(i) if (axes[i] < PARAMETER_COUNT && reach < INFINITY) { \
+        float q = my_photon.parameters.q[min(axes[i], PARAMETER_COUNT - 1u)]; \
+        float slack = RANGE_ROUNDING * (abs(q) + reach); \
+        lo[i + 1] = q - reach - slack; \
+        hi[i + 1] = q + reach + slack; }
+    SET_RANGE(0) SET_RANGE(1) SET_RANGE(2)
+#define JOIN_RANGE(i) range_lo[i] = subgroupMin(takes_part ? lo[i] : INFINITY); \
+    range_hi[i] = subgroupMax(takes_part ? hi[i] : -INFINITY);
+    JOIN_RANGE(0) JOIN_RANGE(1) JOIN_RANGE(2) JOIN_RANGE(3)
 }
 
 bool is_in_ranges(uint node) {

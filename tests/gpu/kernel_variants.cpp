@@ -28,7 +28,8 @@ const std::vector<std::string> KERNELS{"KERNEL 0", "KERNEL 1", "KERNEL 2", "KERN
 const std::vector<std::string> SPACES{"SPACE 0", "SPACE 1", "SPACE 2"};
 const std::vector<std::string> FLAT{"", "FLAT_AXES xz"}, PERIODIC{"", "PERIODIC"}, SINGLY{"", "SINGLY"};
 // Two rows of parameters; kernels in parameter space always have some.
-const std::vector<std::string> SOME_PARAMETERS{"PARAMETER_COUNT 5u\n#define PARAMETER_ROWS 2u"};
+const std::vector<std::string> SOME_PARAMETERS{"PARAMETER_COUNT 5u\n#define PARAMETER_ROWS 2u\n"
+                                               "#define EACH_PARAMETER(DO) DO(0) DO(1) DO(2) DO(3) DO(4)"};
 const std::vector<std::string> PARAMETERS{"", SOME_PARAMETERS[0] + "\n#define TREE_RANGES uint[3](0u, 4u, 255u)",
                                           SOME_PARAMETERS[0] + "\n#define PERIODIC_PARAMETERS"};
 const std::vector<std::string> SHELL{"SHELL_SIZE 2u\n#define EACH_KEPT(DO) DO(0) DO(1)"};
