@@ -19,7 +19,7 @@ constexpr std::uint32_t LARGEST_SHELL = 12;
 // Workgroups of the first chunk of work: fewer would leave the device idle while chunks grow.
 constexpr std::uint64_t FIRST_GROUPS = 64;
 // Subgroups of photons a workgroup takes in turn: amortises its start.
-constexpr std::uint32_t BATCHES = 16;
+constexpr std::uint32_t BATCHES = 4;
 constexpr std::array<const char*, 3> PLANES{"yz", "xz", "xy"}; // without axis 0, 1, 2
 
 // Entries of the shell: all that are sought where that is few.

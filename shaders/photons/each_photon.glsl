@@ -27,7 +27,7 @@ bool take_turn(GatherSettings gather, uint batch, out uint position) {
 // Clears the flag of photons that were answered: it was set beforehand, because a workgroup that the device stops for
 // its loop turns says nothing.
 void report_turn(GatherSettings gather, bool has_photon, bool is_answered, uint position) {
-    bool all_answered = subgroupAll(is_answered || !has_photon);
+    bool all_answered = subgroupAll(is_answered || !has_photon) && subgroupAny(has_photon);
 #ifdef SINGLY
     uint flag = gather.first + gl_WorkGroupID.x;
 #else

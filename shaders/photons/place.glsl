@@ -5,11 +5,15 @@
 
 #ifdef FLAT_AXES
 #define Place vec2
+#define EACH_AXIS(DO) DO(x) DO(y)
 #define take_place(v) (v).FLAT_AXES
 #else
 #define Place vec3
+#define EACH_AXIS(DO) DO(x) DO(y) DO(z)
 #define take_place(v) (v).xyz
 #endif
+
+// Loops over axes are written out: those that the compiler leaves count against the device's limit of turns.
 
 // A place so far off that nobody reaches it, whose square is still a float.
 #define FAR_PLACE Place(1e18)
@@ -37,21 +41,23 @@ float square_length(Place d) {
 
 Place find_least(Place p, bool counts) {
     p = counts ? p : Place(INFINITY);
-    for (int axis = 0; axis < p.length(); ++axis) p[axis] = subgroupMin(p[axis]);
+#define LEAST(a) p.a = subgroupMin(p.a);
+    EACH_AXIS(LEAST)
     return p;
 }
 
 Place find_most(Place p, bool counts) {
     p = counts ? p : Place(-INFINITY);
-    for (int axis = 0; axis < p.length(); ++axis) p[axis] = subgroupMax(p[axis]);
+#define MOST(a) p.a = subgroupMax(p.a);
+    EACH_AXIS(MOST)
     return p;
 }
 
 void set_period(vec4 space_period) {
 #ifdef PERIODIC
     period = take_place(space_period);
-    for (int axis = 0; axis < period.length(); ++axis)
-        inverse_period[axis] = period[axis] > 0.0 ? 1.0 / period[axis] : 0.0;
+#define INVERT(a) inverse_period.a = period.a > 0.0 ? 1.0 / period.a : 0.0;
+    EACH_AXIS(INVERT)
 #endif
 }
 
@@ -61,7 +67,8 @@ void set_period(vec4 space_period) {
 #endif
 
 Place share_place(Place p, uint lane) {
-    for (int axis = 0; axis < p.length(); ++axis) p[axis] = subgroupBroadcast(p[axis], lane);
+#define SHARE(a) p.a = subgroupBroadcast(p.a, lane);
+    EACH_AXIS(SHARE)
     return p;
 }
 

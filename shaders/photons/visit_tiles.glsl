@@ -50,9 +50,8 @@ uint get_waiting(uint step) { return (walk.waiting[step >> 2u] >> (8u * (step & 
 
 void set_waiting(uint step, uint flags) {
     uint shift = 8u * (step & 3u);
-    for (uint word = 0u; word < 3u; ++word)
-        walk.waiting[word] = word == step >> 2u ? (walk.waiting[word] & ~(0xffu << shift)) | flags << shift
-                                                : walk.waiting[word];
+    uvec3 changed = (walk.waiting & ~uvec3(0xffu << shift)) | uvec3(flags << shift);
+    walk.waiting = mix(walk.waiting, changed, equal(uvec3(step >> 2u), uvec3(0u, 1u, 2u)));
 }
 
 // The descendants of the present node that the batch reaches.
@@ -107,7 +106,7 @@ void NAME(uint photon_count, uint leaf_level) { \
     uint next = find_first_position(photon_count, j, leaf_level); \
     bool goes_on = walk.leaves != 0u; \
     while (goes_on) { \
-        ++turns; \
+        turns += 1u + WIDTH / 8u; \
         uint end = find_first_position(photon_count, j + 1u, leaf_level); \
         VISIT(next, end); \
         next += WIDTH; \

@@ -52,7 +52,8 @@ Candidate share_candidate(Candidate mine, uint lane) {
     Candidate c;
     c.place = share_place(mine.place, lane);
 #ifndef FLAT_AXES
-    for (int axis = 0; axis < 3; ++axis) c.normal[axis] = subgroupBroadcast(mine.normal[axis], lane);
+    c.normal = vec3(subgroupBroadcast(mine.normal.x, lane), subgroupBroadcast(mine.normal.y, lane),
+                    subgroupBroadcast(mine.normal.z, lane));
 #endif
 #ifdef PARAMETER_COUNT
     c.emitter = uintBitsToFloat(subgroupBroadcast(floatBitsToUint(mine.emitter), lane));

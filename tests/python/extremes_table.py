@@ -90,7 +90,10 @@ CASES: dict[str, tuple[str, str]] = {
         "axis ratios of photons at one point, on one line",
         "none: refused by name; 0: refused, no β is large enough",
     ),
-    "relax-flux": ("flux 10⁻³⁰ to 10³⁰ W relaxed", "same moves; fluxes stay to the bit, and keep their sum when diffused"),
+    "relax-flux": (
+        "flux 10⁻³⁰ to 10³⁰ W relaxed",
+        "same moves; fluxes stay to the bit, and keep their sum when diffused",
+    ),
     "relax-scale": ("photons scaled by 10⁻⁶, 10⁻³, 10³, 10⁶ relaxed", "moves as the twin's"),
     "relax-scale-bits": ("photons scaled by 2⁻²⁰, 2²⁰ relaxed", "the same bits, scaled"),
     "relax-offset": ("photons 10⁶ from the origin relaxed", "moves as the twin's"),

@@ -41,7 +41,9 @@ def build_sphere(divisions: int) -> Mesh:
         middles /= np.linalg.norm(middles, axis=1, keepdims=True)
         ab, bc, ca = (len(corners) + which.reshape(-1, 3)).T
         a, b, c = faces.T
-        faces = np.concatenate([np.stack(each, axis=1) for each in ((a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca))])
+        faces = np.concatenate(
+            [np.stack(each, axis=1) for each in ((a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca))]
+        )
         corners = np.concatenate([corners, middles])
     return Mesh(corners, corners, faces)
 

@@ -45,9 +45,7 @@ def make_pair(
     """Photons of flux 1; the twin starts from the program's 32 bits. One normal serves all."""
     places = np.asarray(positions, dtype=np.float64).reshape(-1, 3)
     facing = np.broadcast_to(np.asarray(normals, dtype=np.float64), places.shape)
-    program = pl.PhotonMap.from_arrays(
-        positions=places, normals=facing, power=np.ones_like(places), emitter=emitter
-    )
+    program = pl.PhotonMap.from_arrays(positions=places, normals=facing, power=np.ones_like(places), emitter=emitter)
     values, periods = None, None
     if parameters is not None:
         program.set_parameters(parameters, None, bounds, periodic)
