@@ -68,7 +68,7 @@ def test_neighbors_out_of_range_are_refused() -> None:
 
 def test_photons_at_one_point_are_free_and_part() -> None:
     photons = make_pair(np.tile((0.5, 0.0, 0.5), (10_000, 1))).program
-    for descriptor in DESCRIPTORS:
+    for descriptor in DESCRIPTORS[1:]:  # the first is "none"
         found = photons.constrain(descriptor=descriptor)
         check_finite(found)
         assert not found.constraint_weights.any(), descriptor
@@ -166,7 +166,7 @@ def test_photons_far_from_the_origin_relax_as_the_twins() -> None:
     # Floats are 1/16 apart there: a map 100 wide, on that grid, from which the drift is told more finely.
     places = np.round(scatter_flat(COUNT, 7)[0] * 1600.0) / 16.0
     places = np.unique(places, axis=0)
-    error = measure_step(make_pair(places + (1e6, 0.0, -1e6)))
+    error = measure_step(make_pair(places + np.array([1e6, 0.0, -1e6])))
     add_row("relax-offset", f"error {show(error)} radii")
     assert error < TOLERANCE
 
