@@ -68,13 +68,13 @@ def test_neighbors_out_of_range_are_refused() -> None:
 
 def test_photons_at_one_point_are_free_and_part() -> None:
     photons = make_pair(np.tile((0.5, 0.0, 0.5), (10_000, 1))).program
-    for descriptor in DESCRIPTORS[1:]:  # the first is "none"
+    for descriptor in DESCRIPTORS:
         found = photons.constrain(descriptor=descriptor)
         check_finite(found)
         assert not found.constraint_weights.any(), descriptor
         assert not found.gradient.any(), descriptor
     moved = photons.relax(2, 6, descriptor="none")
-    check_finite(moved)
+    check_finite_without_constraint(moved)
     assert (np.linalg.norm(moved.drift, axis=1) > 0.0).all()
     add_row("relax-one-point", "checked")
 
