@@ -90,8 +90,6 @@ Relaxation::Relaxation(gpu::Device& device, const PhotonMap& photons, const KdTr
     m_layered = trees.layered;
     m_parameter_rows = photons.parameters ? photons.parameters->count_rows() : 0;
     m_layers = find_layers_of(settings.repel, settings.neighbors, settings.beta, m_shape);
-    if (m_surface.scene)
-        find_surface(progress);
     if (settings.diffuse_flux)
         order_power();
 }
@@ -252,6 +250,8 @@ StepReport Relaxation::step(const Progress& progress) {
         repel(tau, progress);
         if (m_settings.diffuse_flux) // before the move: radii and places belong together
             flux_drift = diffuse_flux(m_device, m_tree, m_shape, m_layers, m_radii, m_power, progress);
+        if (m_surface.scene && m_triangles.is_empty()) // now that radii say how near a surface must be
+            find_surface(progress);
         move(progress);
     }
     StepReport report = report_step(tau);
@@ -339,7 +339,7 @@ void Relaxation::read_state(RelaxedColumns& columns, const std::vector<glm::vec4
     const std::uint64_t count = m_photons.count;
     const std::vector<glm::vec4> moves = count ? m_moves.read<glm::vec4>(count) : std::vector<glm::vec4>{};
     columns.pressure = scatter<float>(order, 1, [&](std::size_t at, float* value) { *value = moves[at].w; });
-    if (m_surface.scene && count)
+    if (!m_triangles.is_empty())
         for (const std::uint32_t triangle : m_triangles.read<std::uint32_t>(count))
             columns.off_surface_count += triangle == shared::NO_TRIANGLE;
     columns.has_constraint = m_settings.constraint.descriptor != Descriptor::none;

@@ -49,9 +49,13 @@ void main() {
     Sought sought = Sought(landing, side * old_normal.xyz, SAME_SURFACE_COSINE, object);
     uint texel = floatBitsToUint(geometry_at(0u).x) + 3u * (has_triangle ? triangle : 0u);
     // Where the photon came from is that near; its own triangle is preferred to others as near.
-    Closest best = Closest(dot(move, move) * 1.001, NO_TRIANGLE, photon.xyz, vec3(0.0), false);
     vec4 a = geometry_at(texel), b = geometry_at(texel + 1u), c = geometry_at(texel + 2u);
-    meet_nearest(a.xyz, b.xyz, c.xyz, triangle, landing, find_triangle_normal(a.xyz, b.xyz, c.xyz), best);
+    vec3 own_normal = find_triangle_normal(a.xyz, b.xyz, c.xyz);
+    Closest start = Closest(INFINITY, triangle, photon.xyz, vec3(0.0), false); // a user's own photon may lie a little off
+    meet_nearest(a.xyz, b.xyz, c.xyz, triangle, photon.xyz, own_normal, start);
+    float reach = sqrt(dot(move, move)) + sqrt(start.distance2);
+    Closest best = Closest(reach * reach * 1.001, NO_TRIANGLE, photon.xyz, vec3(0.0), false);
+    meet_nearest(a.xyz, b.xyz, c.xyz, triangle, landing, own_normal, best);
     bool has_moved = dot(move, move) > 0.0;
     find_closest(has_triangle && has_moved && !(best.triangle != NO_TRIANGLE && best.is_inside), sought, best);
     if (has_triangle && has_moved && best.triangle != NO_TRIANGLE) {
