@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decides which photon loops run as compute passes, and what each pass reads, writes and reduces (SCRIPT, parallel rules).
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "script/diagnostics.h"
+#include "script/program.h"
+
+namespace photonloupe::script {
+
+// How a loop body uses a script variable.
+enum class Role : std::uint8_t {
+    local,     // definitely assigned before each use in an iteration, not read after the loop
+    uniform,   // not written in the body
+    sum,       // s += e, s -= e, s++, s--, s = s + e
+    minimum,   // s = min(s, e): any NaN gives NaN, -0 < +0
+    maximum,
+    least,     // if (e < s) { s = e; payload = …; }: NaN never wins, ties to the lowest photon id
+    greatest,
+    payload,   // assigned together with a least or greatest; `of` is that variable
+    carried,   // anything else: the loop runs serially
+};
+
+struct VariableUse {
+    Role role = Role::local;
+    std::uint32_t of = 0; // payload: the least or greatest it goes with
+};
+
+// How a body uses an accumulator of moments (the 2-D and the 3-D one each have their own; the decomposition they share).
+enum class AccumulatorUse : std::uint8_t { unused, local, uniform, reduction, carried };
+
+// One neighbour query of a pass; its rows are gathered before the pass runs.
+struct NeighborQuery {
+    enum class Space : std::uint8_t { world, parameter, constrained };
+    const Expression* call = nullptr; // the builtin call; its k and β are uniform
+    Space space = Space::world;
+    bool is_at_loop_photon = false;   // then chunks suffice; else rows of all photons are needed
+};
+
+struct PhotonLoop {
+    const Statement* statement = nullptr;
+    bool is_parallel = true;
+    std::vector<Diagnostic> reasons;   // why it is serial: warnings that name the variable or call, the line, the rewrite
+    std::map<std::uint32_t, VariableUse> variables; // every variable the body (functions too) uses
+    // The if statements recognised as arg-min or arg-max, by their address, with the variable they decide.
+    std::map<const Statement*, std::uint32_t> choices;
+    AccumulatorUse pca_2d = AccumulatorUse::unused;
+    AccumulatorUse pca_3d = AccumulatorUse::unused;
+    AccumulatorUse decomposition = AccumulatorUse::unused;
+    std::vector<NeighborQuery> queries;
+    std::uint32_t columns = 0;         // read; Columns
+    bool sets_parameters = false, sets_colors = false, reads_own_parameters = false, prints = false;
+    bool needs_fuel = false;           // holds a loop that is not bounded
+    bool has_reductions() const;
+};
+
+struct Plan {
+    std::vector<PhotonLoop> loops; // in source order, each once
+    const PhotonLoop* find(const Statement& statement) const;
+};
+
+// Errors of the parallel rules (parameters set and queried in one loop …) go to `diagnostics`.
+Plan plan_photon_loops(const Program& program, Diagnostics& diagnostics);
+
+} // namespace photonloupe::script
