@@ -19,6 +19,7 @@ Doubles = NDArray[np.float64]
 COUNT = 300
 REPULSION = (2.0, 1.2)
 TOLERANCE = 2e-5
+ALIKE = 0.999  # share of ranks that rounding of scaled values leaves as they are
 
 
 def make_layered(values: Doubles, seed: int = 1, *, emitter: NDArray[np.int64] | None = None) -> Pair:
@@ -47,6 +48,24 @@ def test_parameters_that_are_not_numbers_unset_the_photon() -> None:
     values[7, 1] = np.nan
     photons = make_layered(values).program
     assert np.flatnonzero(~photons.parameters_set).tolist() == [7]
+
+
+def test_parameters_whose_distances_are_no_floats_are_refused() -> None:
+    for factor, message in ((1e19, "reaches .*scale the parameters down"), (1e-13, "within .*scale the parameters up")):
+        photons = make_layered(make_random() * factor).program
+        with pytest.raises(pl.PhotonLoupeError, match=message):
+            photons.neighbors([0], 5, space="parameter")
+        with pytest.raises(pl.PhotonLoupeError, match=message):
+            photons.relax(1, 6, constraint="parameter")
+    add_row("parameters-range", "4 refusals")
+
+
+@pytest.mark.parametrize("factor", [1e-11, 1e17])
+def test_parameters_just_within_the_range_of_distances_rank_alike(factor: float) -> None:
+    plain, scaled = (make_layered(make_random() * scale).program for scale in (1.0, factor))
+    found, _ = scaled.neighbors(np.arange(COUNT), 9, space="parameter")
+    expected, _ = plain.neighbors(np.arange(COUNT), 9, space="parameter")
+    assert np.mean(found == expected) > ALIKE
 
 
 def test_infinite_parameters_are_refused_by_row_and_column() -> None:
