@@ -48,7 +48,8 @@ struct Moments {
 void push_point(Moments& moments, std::span<const float> point, std::uint32_t photon);
 Moments merge_moments(const Moments& a, const Moments& b);
 
-// Largest eigenvalue first; divided by the number of points. False: fewer than two points, all equal, or not finite.
+// Largest eigenvalue first; divided by the number of points. False: fewer than two points, all equal, or not finite;
+// there is no decomposition then.
 struct Decomposition {
     std::int32_t dimensions = 0; // 0: none yet
     float eigenvalues[3] = {};
