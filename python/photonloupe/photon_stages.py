@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Unpack
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,6 +16,7 @@ from photonloupe.nearest import find_neighbors
 from photonloupe.photon_columns import Float3, PhotonColumns
 from photonloupe.progress import ProgressLike
 from photonloupe.relaxing import RelaxKeywords, relax_photons
+from photonloupe.scripting import Script, ScriptRun, run_script
 
 if TYPE_CHECKING:
     from photonloupe.photons import PhotonMap
@@ -119,6 +121,65 @@ class PhotonStages(PhotonColumns):
         device = open_device(photons.device)
         return queries.estimate_irradiance(
             device, photons.upload(), points, normals, k=k, kernel=kernel, progress=progress
+        )
+
+    def run_script(
+        self,
+        script: str | os.PathLike[str] | Script,
+        *,
+        values: Mapping[str, Any] | None = None,
+        keep: bool = False,
+        seed: int = 1,
+        limits: Mapping[str, float] | None = None,
+        progress: ProgressLike = None,
+        **exposed: Any,
+    ) -> ScriptRun:
+        """Run a photon script: it gives the photons parameters and colors (docs/script.md).
+
+        Parameters
+        ----------
+        script
+            A file, if it is a `Path` or one line that ends in ``.photon``; else the text itself; or what
+            `compile_script` made of it.
+        values
+            Exposed variables by name; as keywords too, where the name is free.
+        keep
+            Keep the parameters and colors there are, and replace only what the script sets; otherwise all of them go.
+        seed
+            Of the script's `random`.
+        limits
+            ``fuel``: steps of loops without a known end a photon may take (1e6), ``exhausted``: photons that may run
+            out before a pass stops (1000), ``seconds`` a pass may take (60).
+        progress
+            True for a bar, or a callback ``(stage, fraction)`` that returns False to stop.
+        **exposed
+            Exposed variables.
+
+        Returns
+        -------
+        ScriptRun
+            Parameters, colors, histograms, prints, exposed values, report. The map's columns are replaced.
+
+        Raises
+        ------
+        ScriptError
+            With all `diagnostics`; the map is as it was.
+        ArgumentError
+            If a value is out of its range or not exposed.
+
+        Examples
+        --------
+        >>> import photonloupe as pl
+        >>> photons = pl.trace_photons(pl.load_scene("scenes/ring/ring.gltf"), count=10_000, seed=1)
+        >>> run = photons.run_script('''
+        ...     declarePhotonParameter(3, 0, 2, "height");
+        ...     for (i = 0; i < getNumPhotons(); i++) setPhotonParameter(i, 3, getPhotonPosition(i, Y));
+        ... ''')
+        >>> run.parameter_names, photons.parameters.shape == (len(photons), 1)
+        (('height',), True)
+        """
+        return run_script(
+            self._as_map(), script, values, keep=keep, seed=seed, limits=limits, progress=progress, **exposed
         )
 
     def constrain(self, *, progress: ProgressLike = None, **settings: Unpack[RelaxKeywords]) -> PhotonMap:

@@ -32,8 +32,9 @@ MAX_EMITTED = 2**63 - 1
 class PhotonMap(PhotonStages):
     """Photons and what is known of them, as columns.
 
-    Made by `trace_photons`, `load_photons` or `from_arrays`; never changed afterwards. Row i of every column
-    belongs to photon i. Path columns are recorded the first time they are read, by tracing the same photons again.
+    Made by `trace_photons`, `load_photons` or `from_arrays`; afterwards only `run_script` and `set_parameters` change
+    it. Row i of every column belongs to photon i. Path columns are recorded the first time they are read, by tracing
+    the same photons again.
 
     Examples
     --------
@@ -69,6 +70,7 @@ class PhotonMap(PhotonStages):
         self._native = native
         self._parameters = tuple(parameters)
         self._relaxation = dict(relaxation or {})
+        self._has_uploaded_paths = False
 
     @classmethod
     def from_arrays(
@@ -270,7 +272,43 @@ class PhotonMap(PhotonStages):
             device = open_device(self._device)._native
             self._native = _engine.photons_from_columns(device, columns, store)
             self._upload_parameters()
+            if "colors" in self._columns:
+                _engine.set_colors(device, self._native, np.ascontiguousarray(self._columns["colors"]))
         return self._native
+
+    def upload_columns(self, names: Sequence[str]) -> _engine.PhotonMap:
+        """Return the map on the device with the path columns a script reads, recorded now if need be."""
+        native = self.upload()
+        wanted = [name for name in PATH_NAMES if name in names]
+        if not wanted or self._has_uploaded_paths:
+            return native
+        self._record_paths()
+        missing = [name for name in wanted if name not in self._columns]
+        if missing:
+            raise PhotonLoupeError(
+                f"the script reads {missing[0]}, which this map does not have; give it to from_arrays"
+            )
+        paths = {name: np.ascontiguousarray(self._columns[name]) for name in PATH_NAMES if name in self._columns}
+        _engine.set_paths(open_device(self._device)._native, native, paths)
+        self._has_uploaded_paths = True
+        return native
+
+    def take_script_columns(
+        self,
+        values: NDArray[np.float32],
+        parameters: Sequence[Parameter],
+        colors: NDArray[np.float32] | None,
+        script: Mapping[str, Any],
+    ) -> None:
+        """Take what a script run left on the device as the columns of this map."""
+        self._columns.pop("parameters", None)
+        self._columns.pop("colors", None)
+        if parameters:
+            self._add_columns({"parameters": values})
+        if colors is not None:
+            self._add_columns({"colors": colors})
+        self._parameters = tuple(parameters)
+        self._provenance["script"] = dict(script)
 
     def _upload_parameters(self) -> None:
         if "parameters" in self._columns and self._native is not None:
@@ -285,7 +323,7 @@ class PhotonMap(PhotonStages):
     def replace_positions(self, native: _engine.PhotonMap, state: Columns, relaxation: Mapping[str, Any]) -> PhotonMap:
         """Return this map with the photons where a relaxation put them; paths keep their traced end points."""
         columns: Columns = {column.name: np.asarray(getattr(native, column.name)) for column in PHOTON_COLUMNS}
-        kept = ("parameters", *(name for name in PATH_NAMES))
+        kept = ("parameters", "colors", *(name for name in PATH_NAMES))
         columns.update({name: self._columns[name] for name in kept if name in self._columns})
         columns["traced_positions"] = self._columns.get("traced_positions", self._columns["positions"])
         columns.update(state)
