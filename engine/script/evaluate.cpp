@@ -1,35 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // The interpreter's expressions: 32-bit floats as IEEE has them, 32-bit integers that wrap, left to right.
-#include <bit>
 #include <cmath>
 #include <limits>
 
 #include "script/interpreter.h"
+#include "script/reference_math.h"
 
 namespace photonloupe::script {
 namespace {
 
 constexpr float NOT_A_NUMBER = std::numeric_limits<float>::quiet_NaN();
-// The first float beyond 32-bit integers.
-constexpr float INTEGER_END = 2147483648.0f;
 
-Number real(float value) {
-    Number number;
-    number.real = value;
-    return number;
-}
-
-Number integer(std::int32_t value) {
-    Number number;
-    number.integer = value;
-    return number;
-}
-
-Number nothing(Type type) { return type == Type::integer ? integer(0) : real(NOT_A_NUMBER); }
+Number nothing(Type type) { return type == Type::integer ? make_integer(0) : make_real(NOT_A_NUMBER); }
 
 bool is_true(Type type, Number value) { return type == Type::integer ? value.integer != 0 : value.real != 0.0f; }
-
-std::int32_t wrap(std::uint32_t bits) { return std::bit_cast<std::int32_t>(bits); }
 
 template <class T> bool compare(Operator operation, T a, T b) {
     switch (operation) {
@@ -65,12 +49,10 @@ bool Interpreter::evaluate_truth(const Expression& expression) {
 }
 
 std::int32_t Interpreter::convert_to_integer(float value, const Expression& site) {
-    if (value > -INTEGER_END - 1.0f && value < INTEGER_END)
-        return static_cast<std::int32_t>(value);
-    fault(Fault::does_not_fit, site);
-    if (std::isnan(value))
-        return 0;
-    return value < 0 ? std::numeric_limits<std::int32_t>::min() : std::numeric_limits<std::int32_t>::max();
+    const IntegerResult result = script::convert_to_integer(value);
+    if (!result.fits)
+        fault(Fault::does_not_fit, site);
+    return result.value;
 }
 
 std::size_t Interpreter::find_place(const Expression& index, std::size_t count, Fault outside) {
@@ -101,9 +83,9 @@ Number Interpreter::evaluate(const Expression& expression) {
     using Kind = Expression::Kind;
     switch (expression.kind) {
     case Kind::number:
-        return expression.type == Type::integer ? integer(expression.integer) : real(expression.real);
+        return expression.type == Type::integer ? make_integer(expression.integer) : make_real(expression.real);
     case Kind::text:
-        return integer(0);
+        return make_integer(0);
     case Kind::variable: {
         const VariableState& variable = m_state.variables[expression.variable];
         if (variable.is_set)
@@ -119,17 +101,17 @@ Number Interpreter::evaluate(const Expression& expression) {
     case Kind::list_item: {
         const std::vector<std::int32_t> list = evaluate_list(expression.operands[0]);
         const std::size_t place = find_place(expression.operands[1], list.size(), Fault::list_index);
-        return place < list.size() ? integer(list[place]) : nothing(expression.type);
+        return place < list.size() ? make_integer(list[place]) : nothing(expression.type);
     }
     case Kind::list_length:
-        return integer(static_cast<std::int32_t>(evaluate_list(expression.operands[0]).size()));
+        return make_integer(static_cast<std::int32_t>(evaluate_list(expression.operands[0]).size()));
     case Kind::convert: {
         const Expression& operand = expression.operands[0];
         const Number value = evaluate(operand);
         if (operand.type == expression.type)
             return value;
-        return expression.type == Type::real ? real(static_cast<float>(value.integer))
-                                             : integer(convert_to_integer(value.real, expression));
+        return expression.type == Type::real ? make_real(static_cast<float>(value.integer))
+                                             : make_integer(convert_to_integer(value.real, expression));
     }
     case Kind::unary:
         return evaluate_unary(expression);
@@ -151,19 +133,19 @@ Number Interpreter::evaluate_unary(const Expression& expression) {
     const Expression& operand = expression.operands[0];
     const Number value = evaluate(operand);
     if (expression.operation == Operator::logical_not)
-        return integer(!is_true(operand.type, value));
+        return make_integer(!is_true(operand.type, value));
     if (operand.type == Type::integer)
-        return integer(wrap(0u - static_cast<std::uint32_t>(value.integer)));
-    return real(-value.real);
+        return make_integer(subtract_wrapping(0, value.integer));
+    return make_real(-value.real);
 }
 
 Number Interpreter::evaluate_binary(const Expression& expression) {
     const Expression& left = expression.operands[0];
     const Expression& right = expression.operands[1];
     if (expression.operation == Operator::logical_and)
-        return integer(evaluate_truth(left) && evaluate_truth(right));
+        return make_integer(evaluate_truth(left) && evaluate_truth(right));
     if (expression.operation == Operator::logical_or)
-        return integer(evaluate_truth(left) || evaluate_truth(right));
+        return make_integer(evaluate_truth(left) || evaluate_truth(right));
     const Number a = evaluate(left);
     const Number b = evaluate(right);
     return compute(expression.operation, left.type, a, b, expression);
@@ -172,26 +154,21 @@ Number Interpreter::evaluate_binary(const Expression& expression) {
 // `type` is that of both operands.
 Number Interpreter::compute(Operator operation, Type type, Number a, Number b, const Expression& site) {
     const bool is_integer = type == Type::integer;
-    const auto u = static_cast<std::uint32_t>(a.integer), v = static_cast<std::uint32_t>(b.integer);
     switch (operation) {
     case Operator::add:
-        return is_integer ? integer(wrap(u + v)) : real(a.real + b.real);
+        return is_integer ? make_integer(add_wrapping(a.integer, b.integer)) : make_real(a.real + b.real);
     case Operator::subtract:
-        return is_integer ? integer(wrap(u - v)) : real(a.real - b.real);
+        return is_integer ? make_integer(subtract_wrapping(a.integer, b.integer)) : make_real(a.real - b.real);
     case Operator::multiply:
-        return is_integer ? integer(wrap(u * v)) : real(a.real * b.real);
+        return is_integer ? make_integer(multiply_wrapping(a.integer, b.integer)) : make_real(a.real * b.real);
     case Operator::divide:
-        return is_integer ? real(static_cast<float>(a.integer) / static_cast<float>(b.integer)) : real(a.real / b.real);
+        return is_integer ? make_real(static_cast<float>(a.integer) / static_cast<float>(b.integer)) : make_real(a.real / b.real);
     case Operator::modulo:
-        if (is_integer ? b.integer == 0 : b.real == 0.0f) {
+        if (is_integer ? b.integer == 0 : b.real == 0.0f)
             fault(Fault::modulo_by_zero, site);
-            return is_integer ? integer(0) : real(0.0f);
-        }
-        if (is_integer)
-            return integer(b.integer == -1 ? 0 : a.integer % b.integer);
-        return real(std::fmod(a.real, b.real));
+        return is_integer ? make_integer(compute_remainder(a.integer, b.integer)) : make_real(compute_remainder(a.real, b.real));
     default:
-        return integer(is_integer ? compare(operation, a.integer, b.integer) : compare(operation, a.real, b.real));
+        return make_integer(is_integer ? compare(operation, a.integer, b.integer) : compare(operation, a.real, b.real));
     }
 }
 
@@ -205,11 +182,11 @@ Number Interpreter::assign(const Expression& expression) {
     if (variable.type == Type::list) {
         state.list = evaluate_list(operand);
         state.is_set = true;
-        return integer(0);
+        return make_integer(0);
     }
     Number value = evaluate(operand);
     if (operand.type == Type::integer && variable.type == Type::real)
-        value = real(static_cast<float>(value.integer));
+        value = make_real(static_cast<float>(value.integer));
     if (place == count)
         return nothing(variable.type); // the write is dropped
     const bool is_compound = expression.operation != Operator::none;
@@ -237,7 +214,7 @@ Number Interpreter::call_function(const Expression& expression) {
         const Expression& operand = expression.operands[i];
         Number value = evaluate(operand);
         if (operand.type == Type::integer && m_program.variables[function.parameters[i]].type == Type::real)
-            value = real(static_cast<float>(value.integer));
+            value = make_real(static_cast<float>(value.integer));
         arguments.push_back(value);
     }
     for (const std::uint32_t local : m_function_locals[expression.function])

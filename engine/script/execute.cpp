@@ -61,13 +61,38 @@ void Interpreter::run(const RunPass& run_pass) {
     m_run_pass = run_pass;
     m_fuel = m_settings.fuel;
     m_loop_start = std::chrono::steady_clock::now();
+    std::size_t next = 0; // of the exposed variables, to take the value it is given
     try {
-        execute(m_program.body);
+        for (const Statement& statement : m_program.body) {
+            while (next < m_program.exposed.size() && is_before(m_program.exposed[next], statement))
+                expose(m_program.exposed[next++]);
+            execute(statement);
+        }
+        while (next < m_program.exposed.size())
+            expose(m_program.exposed[next++]);
     } catch (const OutOfFuel& out) {
         const Place place = m_program.source.find_place(out.at.begin);
         m_outputs.stopped = "line " + std::to_string(place.line) + ": this loop took more than " +
                             std::to_string(m_settings.fuel) + " turns; the script was stopped there";
     }
+}
+
+bool Interpreter::is_before(std::uint32_t variable, const Statement& statement) const {
+    return m_program.variables[variable].exposed->span.begin < statement.span.begin;
+}
+
+// From here on the variable has the value it was given from outside, or what the script assigned.
+void Interpreter::expose(std::uint32_t index) {
+    const Variable& variable = m_program.variables[index];
+    VariableState& state = m_state.variables[index];
+    const auto given = m_settings.values.find(variable.name);
+    if (given == m_settings.values.end())
+        return;
+    if (variable.type == Type::integer)
+        state.numbers[0].integer = static_cast<std::int32_t>(given->second);
+    else
+        state.numbers[0].real = static_cast<float>(given->second);
+    state.is_set = true;
 }
 
 void Interpreter::spend_fuel(const Statement& statement) {

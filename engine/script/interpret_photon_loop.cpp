@@ -236,7 +236,7 @@ void Interpreter::commit_iteration() {
         columns.has_colors = columns.host_wrote = true;
     }
     for (const Iteration::Sample& sample : m_iteration.samples)
-        sample.histogram->add(sample.value);
+        m_outputs.histograms[sample.histogram].add(sample.value);
     for (std::string& line : m_iteration.prints)
         if (m_loop_prints++ < PRINT_LIMIT)
             m_outputs.prints.push_back(std::move(line));

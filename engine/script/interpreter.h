@@ -31,6 +31,9 @@ struct ScriptState {
     Decomposition decomposition;
 };
 
+constexpr std::int32_t DEFAULT_NEIGHBORS = 50;
+constexpr float MOST_NEIGHBORS = 1000;
+
 class Interpreter {
 public:
     // Runs a parallel loop elsewhere and brings what it reduced into the state. False: the interpreter must run it.
@@ -73,7 +76,7 @@ private:
         };
         std::vector<Undo> undo; // writes to what is reduced
         struct Sample {
-            HistogramCounts* histogram;
+            std::size_t histogram; // of RunOutputs
             float value;
         };
         std::vector<Sample> samples;
@@ -88,6 +91,8 @@ private:
     };
 
     // statements (execute.cpp)
+    bool is_before(std::uint32_t variable, const Statement& statement) const;
+    void expose(std::uint32_t variable);
     Flow execute(const std::vector<Statement>& statements);
     Flow execute(const Statement& statement);
     Flow execute_loop(const Statement& statement);

@@ -107,6 +107,8 @@ struct Function {
     bool may_end_without_value = false;    // then the call's value is NaN (integer: 0) and reported
 };
 
+constexpr std::uint32_t PREDEFINED_VARIABLES = 4; // X, Y, Z, E
+
 struct Program {
     Source source;
     std::vector<Variable> variables; // X, Y, Z, E first

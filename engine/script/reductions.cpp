@@ -20,18 +20,6 @@ std::int32_t add_wrapping(std::int32_t a, std::int32_t b) {
     return std::bit_cast<std::int32_t>(std::bit_cast<std::uint32_t>(a) + std::bit_cast<std::uint32_t>(b));
 }
 
-Number make_real(float value) {
-    Number number;
-    number.real = value;
-    return number;
-}
-
-Number make_integer(std::int32_t value) {
-    Number number;
-    number.integer = value;
-    return number;
-}
-
 template <class T> bool beats(Role role, T challenger, T holder) {
     return role == Role::least ? challenger < holder : challenger > holder;
 }

@@ -23,6 +23,18 @@ union Number {
     std::int32_t integer;
 };
 
+inline Number make_real(float value) {
+    Number number;
+    number.real = value;
+    return number;
+}
+
+inline Number make_integer(std::int32_t value) {
+    Number number;
+    number.integer = value;
+    return number;
+}
+
 // min and max as the language has them: any NaN gives NaN, -0 < +0.
 float minimum_of(float a, float b);
 float maximum_of(float a, float b);

@@ -29,7 +29,7 @@ void HistogramCounts::add(float value) {
         ++non_finite;
     } else if (value < low) {
         ++below;
-    } else if (value > high) {
+    } else if (value >= high) {
         ++above;
     } else {
         const float place = (value - low) / (high - low) * static_cast<float>(counts.size());
@@ -37,11 +37,14 @@ void HistogramCounts::add(float value) {
     }
 }
 
-HistogramCounts& RunOutputs::find_histogram(const std::string& name, float low, float high, std::uint32_t bins) {
-    for (HistogramCounts& histogram : histograms)
-        if (histogram.name == name && histogram.low == low && histogram.high == high && histogram.counts.size() == bins)
-            return histogram;
-    return histograms.emplace_back(HistogramCounts{name, low, high, std::vector<std::uint32_t>(bins)});
+std::size_t RunOutputs::find_histogram(const std::string& name, float low, float high, std::uint32_t bins) {
+    for (std::size_t i = 0; i < histograms.size(); ++i) {
+        const HistogramCounts& known = histograms[i];
+        if (known.name == name && known.low == low && known.high == high && known.counts.size() == bins)
+            return i;
+    }
+    histograms.push_back({name, low, high, std::vector<std::uint32_t>(bins)});
+    return histograms.size() - 1;
 }
 
 LoopReport& RunOutputs::find_loop(const Statement& loop) {

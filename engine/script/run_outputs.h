@@ -84,7 +84,8 @@ struct RunOutputs {
     std::vector<LoopReport> loops; // in the order first run
     std::string stopped;           // why the script ended early; empty: it did not
 
-    HistogramCounts& find_histogram(const std::string& name, float low, float high, std::uint32_t bins);
+    // Its place among the histograms.
+    std::size_t find_histogram(const std::string& name, float low, float high, std::uint32_t bins);
     LoopReport& find_loop(const Statement& loop);
     // A photon counts once for each site it meets: `photon` must not be lower than at the call before for that site.
     void add_fault(const FaultSite& site, std::uint32_t photon);
