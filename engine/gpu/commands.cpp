@@ -216,7 +216,7 @@ std::uint64_t find_large(const Kernel& kernel, const std::vector<const Buffer*>&
 } // namespace
 
 void Commands::record_dispatch(const KernelSource& source, std::initializer_list<Binding> bindings, const void* push,
-                               std::uint32_t push_bytes, std::uint64_t invocations, std::uint32_t rows) {
+                               std::uint32_t push_bytes, std::uint64_t invocations) {
     if (push_bytes > PUSH_BYTES)
         throw std::logic_error("push constants of " + source.path + " exceed 128 bytes");
     Kernel& kernel = m_impl->device.find_kernel(source);
@@ -225,7 +225,7 @@ void Commands::record_dispatch(const KernelSource& source, std::initializer_list
     PipelineVariant& variant = kernel.find_variant(by_address);
     const VkDescriptorSet set = m_impl->write_set(kernel, buffers, by_address);
     const std::uint64_t groups = (invocations + kernel.workgroup_size() - 1) / kernel.workgroup_size();
-    if (groups > m_impl->device.limits().max_group_count || rows > m_impl->device.limits().max_group_count)
+    if (groups > m_impl->device.limits().max_group_count)
         throw std::logic_error("dispatch of " + source.path +
                                " exceeds the device's workgroup count; cut it in chunks");
     const VolkDeviceTable& vk = m_impl->gpu().table;
@@ -235,7 +235,7 @@ void Commands::record_dispatch(const KernelSource& source, std::initializer_list
     std::uint8_t padded[PUSH_BYTES] = {};
     std::memcpy(padded, push, push_bytes);
     vk.vkCmdPushConstants(commands, kernel.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, PUSH_BYTES, padded);
-    vk.vkCmdDispatch(commands, static_cast<std::uint32_t>(groups), rows, 1);
+    vk.vkCmdDispatch(commands, static_cast<std::uint32_t>(groups), 1, 1);
     m_impl->add_barrier();
     m_impl->dispatch_count += 1;
     if (!variant.is_warm)

@@ -30,11 +30,10 @@ public:
     Commands(const Commands&) = delete;
     Commands& operator=(const Commands&) = delete;
 
-    // `rows` of workgroups (in y), each of so many invocations in x.
     template <class Push>
     void dispatch(const KernelSource& kernel, std::initializer_list<Binding> bindings, const Push& push,
-                  std::uint64_t invocations, std::uint32_t rows = 1) {
-        record_dispatch(kernel, bindings, &push, sizeof(Push), invocations, rows);
+                  std::uint64_t invocations) {
+        record_dispatch(kernel, bindings, &push, sizeof(Push), invocations);
     }
     void copy(const Buffer& source, std::uint64_t source_offset, const Buffer& target, std::uint64_t target_offset,
               std::uint64_t size_bytes);
@@ -49,7 +48,7 @@ public:
 private:
     struct Impl;
     void record_dispatch(const KernelSource& kernel, std::initializer_list<Binding> bindings, const void* push,
-                         std::uint32_t push_bytes, std::uint64_t invocations, std::uint32_t rows);
+                         std::uint32_t push_bytes, std::uint64_t invocations);
     std::unique_ptr<Impl> m_impl;
 };
 
