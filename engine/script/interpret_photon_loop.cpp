@@ -226,15 +226,11 @@ void Interpreter::commit_iteration() {
     }
     ScriptColumns& columns = m_outputs.columns;
     const std::uint32_t photon = m_iteration.photon;
-    for (std::size_t i = 0; i < columns.declared.size(); ++i)
-        if (m_iteration.has_parameter[i]) {
-            columns.parameters[i][photon] = m_iteration.parameters[i];
-            columns.host_wrote = true;
-        }
-    if (m_iteration.has_color) {
-        std::copy_n(m_iteration.color, 3, &columns.colors[3 * std::size_t{photon}]);
-        columns.has_colors = columns.host_wrote = true;
-    }
+    for (std::size_t i = 0; i < columns.declared().size(); ++i)
+        if (m_iteration.has_parameter[i])
+            columns.write_parameter(i, photon, m_iteration.parameters[i]);
+    if (m_iteration.has_color)
+        columns.write_color(photon, m_iteration.color);
     for (const Iteration::Sample& sample : m_iteration.samples)
         m_outputs.histograms[sample.histogram].add(sample.value);
     for (std::string& line : m_iteration.prints)

@@ -69,7 +69,7 @@ Number Interpreter::read_path(const Expression& expression) {
 Number Interpreter::read_parameter(const Expression& expression) {
     ScriptColumns& columns = m_outputs.columns;
     const std::size_t photon = find_place(expression.operands[0], m_photons.count, Fault::photon_index);
-    const std::size_t end = FIRST_DIMENSION + columns.declared.size();
+    const std::size_t end = FIRST_DIMENSION + columns.declared().size();
     const std::size_t dimension = find_place(expression.operands[1], end, Fault::dimension_index);
     if (photon == m_photons.count || dimension == end)
         return make_real(NOT_A_NUMBER);
@@ -80,14 +80,13 @@ Number Interpreter::read_parameter(const Expression& expression) {
     const std::size_t index = dimension - FIRST_DIMENSION;
     if (m_iteration.loop && photon == m_iteration.photon && m_iteration.has_parameter[index])
         return make_real(m_iteration.parameters[index]);
-    columns.take_to_host();
-    return make_real(columns.parameters[index][photon]);
+    return make_real(columns.read_parameter(index, photon));
 }
 
 void Interpreter::declare_parameter(const Expression& expression) {
     const std::vector<Expression>& operands = expression.operands;
     const std::size_t dimension = find_place(operands[0], LAST_DIMENSION + 1, Fault::dimension_index);
-    const std::size_t next = FIRST_DIMENSION + m_outputs.columns.declared.size();
+    const std::size_t next = FIRST_DIMENSION + m_outputs.columns.declared().size();
     DeclaredParameter parameter;
     parameter.low = evaluate_real(operands[1]);
     parameter.high = evaluate_real(operands[2]);
@@ -111,7 +110,7 @@ void Interpreter::declare_parameter(const Expression& expression) {
 void Interpreter::set_parameter(const Expression& expression) {
     ScriptColumns& columns = m_outputs.columns;
     const std::size_t photon = find_place(expression.operands[0], m_photons.count, Fault::photon_index);
-    const std::size_t end = FIRST_DIMENSION + columns.declared.size();
+    const std::size_t end = FIRST_DIMENSION + columns.declared().size();
     const std::size_t dimension = find_place(expression.operands[1], end, Fault::dimension_index);
     const float value = evaluate_real(expression.operands[2]);
     if (photon == m_photons.count || dimension == end)
@@ -125,9 +124,7 @@ void Interpreter::set_parameter(const Expression& expression) {
         m_iteration.parameters[index] = value;
         m_iteration.has_parameter[index] = true;
     } else {
-        columns.take_to_host();
-        columns.parameters[index][photon] = value;
-        columns.host_wrote = true;
+        columns.write_parameter(index, photon, value);
     }
 }
 
@@ -143,10 +140,7 @@ void Interpreter::set_color(const Expression& expression) {
         m_iteration.has_color = true;
         return;
     }
-    ScriptColumns& columns = m_outputs.columns;
-    columns.take_to_host();
-    std::copy_n(color, AXES, &columns.colors[AXES * photon]);
-    columns.has_colors = columns.host_wrote = true;
+    m_outputs.columns.write_color(photon, color);
 }
 
 std::vector<std::int32_t> Interpreter::find_neighbors(const Expression& expression) {
@@ -163,7 +157,6 @@ std::vector<std::int32_t> Interpreter::find_neighbors(const Expression& expressi
         fault(Fault::query, expression);
     if (!is_valid || photon == m_photons.count)
         return {};
-    m_outputs.columns.take_to_host();
     const NeighborQuery::Space space = id == BuiltinId::get_knn             ? NeighborQuery::Space::world
                                        : id == BuiltinId::get_parameter_knn ? NeighborQuery::Space::parameter
                                                                             : NeighborQuery::Space::constrained;

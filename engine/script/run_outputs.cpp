@@ -3,26 +3,9 @@
 #include "script/run_outputs.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace photonloupe::script {
-
-float make_unset() { return std::bit_cast<float>(UNSET_BITS); }
-
-bool is_unset(float value) { return std::bit_cast<std::uint32_t>(value) == UNSET_BITS; }
-
-void ScriptColumns::declare(std::uint32_t dimension, DeclaredParameter parameter) {
-    take_to_host();
-    const std::size_t index = dimension - FIRST_DIMENSION;
-    if (declared.size() <= index) {
-        declared.resize(index + 1);
-        parameters.resize(index + 1);
-    }
-    declared[index] = std::move(parameter);
-    parameters[index].assign(photon_count, make_unset());
-    host_wrote = true;
-}
 
 void HistogramCounts::add(float value) {
     if (!std::isfinite(value)) {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -11,44 +10,12 @@
 
 #include "script/fault_sites.h"
 #include "script/program.h"
+#include "script/script_columns.h"
 
 namespace photonloupe::script {
 
-constexpr std::uint32_t FIRST_DIMENSION = 3; // 0–2 are x, y, z
-constexpr std::uint32_t LAST_DIMENSION = 15;
-constexpr std::uint32_t PARAMETER_LIMIT = LAST_DIMENSION - FIRST_DIMENSION + 1;
 constexpr std::uint32_t PRINT_LIMIT = 20; // lines of a photon loop
 constexpr std::uint32_t NO_PHOTON = 0xffffffffu;
-
-// A column's value where nothing was set: a NaN that arithmetic does not make, so that "set to NaN" can be told apart.
-constexpr std::uint32_t UNSET_BITS = 0x7fffffffu;
-float make_unset();
-bool is_unset(float value);
-
-struct DeclaredParameter {
-    std::string name;
-    float low = 0, high = 0;
-    bool is_periodic = false;
-    bool is_kept = false; // from an earlier run: not declared by this script
-};
-
-// The columns a script writes. The host's copy and the device's take turns: `bring_to_host` is called before the host
-// reads or writes, and `host_wrote` tells that the device's copy is old.
-struct ScriptColumns {
-    std::uint32_t photon_count = 0;
-    std::vector<DeclaredParameter> declared;    // dimensions from 3 on
-    std::vector<std::vector<float>> parameters; // by dimension - 3
-    std::vector<float> colors;                  // rgb a photon; unset ones are UNSET_BITS
-    bool has_colors = false;                    // some photon may have been given one
-    bool host_wrote = false;
-    std::function<void()> bring_to_host;
-
-    void take_to_host() {
-        if (bring_to_host)
-            bring_to_host();
-    }
-    void declare(std::uint32_t dimension, DeclaredParameter parameter);
-};
 
 struct HistogramCounts {
     std::string name;
