@@ -37,7 +37,10 @@ enum class Effect : std::uint8_t {
 };
 
 // What an argument means, so that ranges and uniformity are checked in one place.
-enum class Argument : std::uint8_t { number, photon, axis, channel, vertex, dimension, list, text, uniform_number, uniform_count, flag };
+// A neighbor count (k) is 1-1,000, a bin count 1-4,096; an item is a whole number without bounds of its own.
+enum class Argument : std::uint8_t {
+    number, photon, axis, channel, vertex, dimension, list, text, uniform_number, uniform_count, bin_count, flag, item,
+};
 
 // How the result's type follows: `as_arguments` is integer when all number arguments are.
 enum class Result : std::uint8_t { none, integer, real, list, as_arguments };

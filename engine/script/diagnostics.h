@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "core/error.h"
@@ -12,7 +13,7 @@ namespace photonloupe::script {
 
 enum class Severity : std::uint8_t { error, warning };
 
-// Each kind of complaint has one code, listed with an example in diagnostics.cpp's table (and docs/script.md).
+// Each kind of complaint has one code, listed in diagnostic_codes.h.
 struct Diagnostic {
     std::string code; // "E004", "W001"
     Severity severity = Severity::error;
@@ -21,7 +22,7 @@ struct Diagnostic {
     std::string note;    // may be empty: "did you mean …", how to rewrite it
 };
 
-// Collects; keeps the first MAX_ERRORS errors (in source order when handed out) and all warnings.
+// Collects each complaint once; hands out the first MAX_ERRORS errors and all warnings in source order.
 class Diagnostics {
 public:
     static constexpr std::size_t MAX_ERRORS = 20;
@@ -31,6 +32,7 @@ public:
 
 private:
     std::vector<Diagnostic> m_list;
+    std::unordered_set<std::string> m_known; // code, span and message of each
 };
 
 //     tortuosity.photon:25:8: error E004: unknown function 'getPathVertx'

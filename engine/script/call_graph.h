@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// The script's functions by name, and the refusal of recursion: functions are inlined.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "script/diagnostics.h"
+#include "script/syntax.h"
+
+namespace photonloupe::script {
+
+using FunctionTable = std::map<std::string, const SyntaxFunction*>;
+
+// Reports names defined twice or taken by the language, and repeated parameters.
+FunctionTable build_function_table(const SyntaxScript& script, Diagnostics& diagnostics);
+
+// Reports every cycle of calls at the call that closes it. False: there is one.
+bool check_recursion(const SyntaxScript& script, const FunctionTable& table, Diagnostics& diagnostics);
+
+} // namespace photonloupe::script
