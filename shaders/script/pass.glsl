@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What every pass of a script has: push constants, faults of the present photon, loop turns and fuel.
-// Define FAULT_WORDS, and HAS_LATE_BITS where a photon's loops may take all turns.
+// Define FAULT_WORDS.
 #include "shared/script.h"
 #include "shared/turns.glsl"
 #pragma binding uint status_words
@@ -24,7 +24,7 @@ void fault_if(bool is_bad, uint site) {
 // Before every turn of a loop with a bound.
 bool take_turn() { return ++turns < TURN_BUDGET; }
 
-// Before every turn of any other loop. What comes after the last is run to the photon's end, for nothing.
+// Before every turn of any other loop. After the last, the rest of the body is run for nothing.
 bool take_step(uint site) {
     bool is_empty = fuel_left == 0u;
     fault_if(is_empty, site);
@@ -33,12 +33,11 @@ bool take_step(uint site) {
     return ++turns < TURN_BUDGET && !is_empty;
 }
 
-// After a loop: the device counts the longest lane's turns against every lane.
+// After a loop: the device counts its longest lane's turns against every lane.
 void share_turns() { turns = subgroupMax(turns); }
 
 bool is_photon_complete() { return !is_out_of_fuel && has_turns_left(); }
 
-// A flag beside the value says whether it is set.
 float check_set(bool is_set, float value, uint site) {
     fault_if(!is_set, site);
     return is_set ? value : NAN;
@@ -48,25 +47,22 @@ int check_set(bool is_set, int value, uint site) {
     return is_set ? value : 0;
 }
 
-bool is_inside(int index, int size, uint site) {
+// Where an index falls in [0, size); -1 and a fault outside.
+int find_place(int index, int size, uint outside) {
     bool is_good = uint(index) < uint(size);
-    fault_if(!is_good, site);
-    return is_good;
+    fault_if(!is_good, outside);
+    return is_good ? index : -1;
+}
+int find_place(float index, int size, uint outside, uint not_whole) {
+    bool is_whole = index == floor(index) && abs(index) < INFINITY;
+    bool is_good = is_whole && index >= 0.0 && index < float(size);
+    fault_if(!is_whole, not_whole);
+    fault_if(is_whole && !is_good, outside);
+    return is_good ? int(index) : -1;
 }
 
-// An index given as float: -1 (outside of everything) unless it is whole.
-int to_index(float x, uint site) {
-    bool is_whole = x == floor(x) && abs(x) < 2147483648.0;
-    fault_if(!is_whole, site);
-    return is_whole ? int(x) : -1;
-}
-
-// A float that becomes an integer: 0 unless it fits.
-int to_integer(float x, uint site) {
-    bool fits = x > -2147483904.0 && x < 2147483648.0;
-    fault_if(!fits, site);
-    return fits ? int(x) : 0;
-}
+// For a condition: whether it is inside.
+bool is_inside(int index, int size, uint outside) { return find_place(index, size, outside) >= 0; }
 
 void start_photon() {
     for (uint word = 0u; word < FAULT_WORDS; ++word) fault_bits[word] = 0u;
@@ -75,7 +71,6 @@ void start_photon() {
 }
 
 void count_faults() {
-    if ((settings.flags & SCRIPT_IS_DRY) != 0u) return;
     for (uint word = 0u; word < FAULT_WORDS; ++word)
         for (uint bits = fault_bits[word]; bits != 0u && take_turn(); bits &= bits - 1u) {
             uint site = word * 32u + uint(findLSB(bits));
