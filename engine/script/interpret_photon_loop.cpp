@@ -1,32 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Photon loops in the interpreter: iterations that stage what they write, and reductions in blocks and lanes.
-#include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "script/interpreter.h"
 
 namespace photonloupe::script {
-namespace {
-
-bool is_reduction(Role role) {
-    return role != Role::local && role != Role::uniform && role != Role::carried;
-}
-
-bool is_choice(Role role) { return role == Role::least || role == Role::greatest; }
-
-// Pairwise, results pairwise again; an odd one out moves up unchanged.
-template <class T, class Combine> T combine_pairwise(std::vector<T>& items, const Combine& combine) {
-    for (std::size_t count = items.size(); count > 1; count = (count + 1) / 2) {
-        for (std::size_t i = 0; i + 1 < count; i += 2)
-            items[i / 2] = combine(items[i], items[i + 1]);
-        if (count % 2 == 1)
-            items[count / 2] = std::move(items[count - 1]);
-    }
-    return std::move(items[0]);
-}
-
-} // namespace
-
 Interpreter::Flow Interpreter::execute_photon_loop(const Statement& statement) {
     const PhotonLoop& loop = *m_plan.find(statement);
     LoopReport& report = m_outputs.find_loop(statement);
@@ -47,126 +26,88 @@ Interpreter::Flow Interpreter::execute_photon_loop(const Statement& statement) {
     return Flow::on;
 }
 
-void Interpreter::list_reduced(const PhotonLoop& loop) {
-    m_reduced.clear();
-    for (const auto& [variable, use] : loop.variables)
-        if (is_reduction(use.role)) {
-            m_reduced.push_back(variable);
-            m_is_reduced[variable] = true;
-        }
+void Interpreter::begin_reductions(const PhotonLoop& loop) {
+    m_layout = lay_out_lanes(m_program, loop);
+    for (const ReducedSlots& slots : m_layout.variables)
+        m_is_reduced[slots.variable] = true;
 }
 
-Interpreter::Lane Interpreter::make_lane(const PhotonLoop& loop) const {
+void Interpreter::end_reductions() {
+    for (const ReducedSlots& slots : m_layout.variables) {
+        m_is_reduced[slots.variable] = false;
+        m_choice_photons[slots.variable].clear();
+    }
+    m_layout = {};
+    m_iteration = {};
+}
+
+Interpreter::Lane Interpreter::make_lane() const {
     Lane lane;
-    for (const std::uint32_t variable : m_reduced) {
-        const Role role = loop.variables.at(variable).role;
-        const std::size_t count = m_state.variables[variable].numbers.size();
-        lane.values.emplace_back(count, find_identity(role, m_program.variables[variable].type));
-        lane.photons.emplace_back(is_choice(role) ? count : 0, NO_PHOTON);
+    for (const ReducedSlots& slots : m_layout.variables) {
+        lane.values.emplace_back(slots.size, find_identity(slots.role, slots.type));
+        const bool is_choice = slots.role == Role::least || slots.role == Role::greatest;
+        lane.photons.emplace_back(is_choice ? slots.size : 0, NO_PHOTON);
     }
     return lane;
 }
 
-// The body then works on the lane's own values.
-void Interpreter::enter_lane(const PhotonLoop& loop, Lane& lane) {
-    for (std::size_t i = 0; i < m_reduced.size(); ++i) {
-        std::swap(m_state.variables[m_reduced[i]].numbers, lane.values[i]);
-        std::swap(m_choice_photons[m_reduced[i]], lane.photons[i]);
+void Interpreter::swap_lane(Lane& lane) {
+    for (std::size_t i = 0; i < m_layout.variables.size(); ++i) {
+        const std::uint32_t variable = m_layout.variables[i].variable;
+        std::swap(m_state.variables[variable].numbers, lane.values[i]);
+        std::swap(m_choice_photons[variable], lane.photons[i]);
     }
-    if (loop.pca_2d == AccumulatorUse::reduction)
+    if (m_layout.pca_2d)
         std::swap(m_state.pca_2d, lane.pca_2d);
-    if (loop.pca_3d == AccumulatorUse::reduction)
+    if (m_layout.pca_3d)
         std::swap(m_state.pca_3d, lane.pca_3d);
 }
 
-void Interpreter::leave_lane(const PhotonLoop& loop, Lane& lane) { enter_lane(loop, lane); }
-
-Interpreter::Lane Interpreter::combine_lanes(const PhotonLoop& loop, std::vector<Lane>& lanes) const {
-    return combine_pairwise(lanes, [&](const Lane& a, const Lane& b) {
-        Lane joined = a;
-        for (std::size_t i = 0; i < m_reduced.size(); ++i) {
-            const VariableUse& use = loop.variables.at(m_reduced[i]);
-            const Type type = m_program.variables[m_reduced[i]].type;
-            for (std::size_t j = 0; j < joined.values[i].size(); ++j) {
-                if (use.role == Role::payload)
-                    continue; // goes with its choice, below
-                if (!is_choice(use.role)) {
-                    joined.values[i][j] = combine(use.role, type, a.values[i][j], b.values[i][j]);
-                    continue;
-                }
-                const Choice mine{a.values[i][j], a.photons[i][j]}, other{b.values[i][j], b.photons[i][j]};
-                if (!wins(use.role, type, other, mine))
-                    continue;
-                joined.values[i][j] = other.value;
-                joined.photons[i][j] = other.photon;
-                for (std::size_t p = 0; p < m_reduced.size(); ++p) {
-                    const VariableUse& payload = loop.variables.at(m_reduced[p]);
-                    if (payload.role == Role::payload && payload.of == m_reduced[i])
-                        joined.values[p][j] = b.values[p][j];
-                }
-            }
+std::vector<std::uint32_t> Interpreter::combine_block(const std::vector<Lane>& lanes) const {
+    const std::size_t width = lanes.size();
+    std::vector<std::uint32_t> words(m_layout.slots * width);
+    for (std::size_t lane = 0; lane < width; ++lane) {
+        for (std::size_t i = 0; i < m_layout.variables.size(); ++i) {
+            const std::size_t first = m_layout.variables[i].first, size = m_layout.variables[i].size;
+            for (std::size_t j = 0; j < size; ++j)
+                words[(first + j) * width + lane] = std::bit_cast<std::uint32_t>(lanes[lane].values[i][j]);
+            for (std::size_t j = 0; j < lanes[lane].photons[i].size(); ++j)
+                words[(first + size + j) * width + lane] = lanes[lane].photons[i][j];
         }
-        joined.pca_2d = merge_moments(a.pca_2d, b.pca_2d);
-        joined.pca_3d = merge_moments(a.pca_3d, b.pca_3d);
-        return joined;
-    });
+        for (const auto& [first, moments] : {std::pair{m_layout.pca_2d, &lanes[lane].pca_2d},
+                                             std::pair{m_layout.pca_3d, &lanes[lane].pca_3d}}) {
+            std::uint32_t packed[sizeof(Moments) / sizeof(std::uint32_t)];
+            store_moments(*moments, packed);
+            for (std::size_t j = 0; first && j < std::size(packed); ++j)
+                words[(*first + j) * width + lane] = packed[j];
+        }
+    }
+    return combine_lanes(m_layout, words, static_cast<std::uint32_t>(width));
 }
 
 void Interpreter::interpret_loop(const PhotonLoop& loop, LoopReport& report) {
-    list_reduced(loop);
-    std::vector<Lane> blocks, lanes;
+    begin_reductions(loop);
+    std::vector<std::vector<std::uint32_t>> blocks;
+    std::vector<Lane> lanes;
     for (std::uint32_t photon = 0; photon < m_photons.count; ++photon) {
         if (photon % REDUCTION_BLOCK == 0) {
             m_progress.report("run script", static_cast<double>(photon) / m_photons.count);
             check_time(report);
-            lanes.assign(REDUCTION_LANES, make_lane(loop));
+            lanes.assign(REDUCTION_LANES, make_lane());
         }
         Lane& lane = lanes[photon % REDUCTION_LANES];
-        enter_lane(loop, lane);
+        swap_lane(lane);
         const Flow flow = report.stopped.empty() ? iterate(loop, photon, report) : Flow::leave;
-        leave_lane(loop, lane);
+        swap_lane(lane);
         const bool is_last = photon + 1 == m_photons.count || flow == Flow::leave;
-        if (is_last || (photon + 1) % REDUCTION_BLOCK == 0)
-            blocks.push_back(combine_lanes(loop, lanes));
+        if (m_layout.slots > 0 && (is_last || (photon + 1) % REDUCTION_BLOCK == 0))
+            blocks.push_back(combine_block(lanes));
         if (flow == Flow::leave)
             break;
     }
     if (!blocks.empty())
-        bring_back(loop, combine_lanes(loop, blocks));
-    for (const std::uint32_t variable : m_reduced)
-        m_is_reduced[variable] = false;
-    m_reduced.clear();
-    m_iteration = {};
-}
-
-// The value a variable had before the loop, combined with the loop's total.
-void Interpreter::bring_back(const PhotonLoop& loop, const Lane& total) {
-    for (std::size_t i = 0; i < m_reduced.size(); ++i) {
-        const VariableUse& use = loop.variables.at(m_reduced[i]);
-        VariableState& state = m_state.variables[m_reduced[i]];
-        const Type type = m_program.variables[m_reduced[i]].type;
-        for (std::size_t j = 0; j < state.numbers.size(); ++j) {
-            const Number before = state.numbers[j];
-            if (use.role == Role::payload)
-                continue;
-            if (!is_choice(use.role)) {
-                state.numbers[j] = combine(use.role, type, before, total.values[i][j]);
-                continue;
-            }
-            if (!wins(use.role, type, {total.values[i][j], total.photons[i][j]}, {before, 0}))
-                continue;
-            state.numbers[j] = total.values[i][j];
-            for (std::size_t p = 0; p < m_reduced.size(); ++p) {
-                const VariableUse& payload = loop.variables.at(m_reduced[p]);
-                if (payload.role == Role::payload && payload.of == m_reduced[i]) {
-                    m_state.variables[m_reduced[p]].numbers[j] = total.values[p][j];
-                    m_state.variables[m_reduced[p]].is_set = true;
-                }
-            }
-        }
-    }
-    m_state.pca_2d = merge_moments(m_state.pca_2d, total.pca_2d);
-    m_state.pca_3d = merge_moments(m_state.pca_3d, total.pca_3d);
+        bring_back(m_layout, combine_blocks(m_layout, blocks), m_state);
+    end_reductions();
 }
 
 Interpreter::Flow Interpreter::iterate(const PhotonLoop& loop, std::uint32_t photon, LoopReport& report) {
@@ -241,19 +182,14 @@ void Interpreter::commit_iteration() {
 void Interpreter::replay_photon(const PhotonLoop& loop, std::uint32_t photon, std::vector<std::string>& prints) {
     const ScriptState kept = m_state;
     m_is_replay = true;
-    LoopReport unused;
-    list_reduced(loop);
-    Lane lane = make_lane(loop);
-    enter_lane(loop, lane);
     m_replayed.clear();
+    LoopReport unused;
+    begin_reductions(loop);
+    Lane lane = make_lane();
+    swap_lane(lane);
     iterate(loop, photon, unused);
     prints.insert(prints.end(), m_replayed.begin(), m_replayed.end());
-    for (const std::uint32_t variable : m_reduced) {
-        m_is_reduced[variable] = false;
-        m_choice_photons[variable].clear();
-    }
-    m_reduced.clear();
-    m_iteration = {};
+    end_reductions();
     m_is_replay = false;
     m_state = kept;
 }

@@ -11,27 +11,12 @@
 #include "core/progress.h"
 #include "script/host_photons.h"
 #include "script/plan.h"
-#include "script/reductions.h"
+#include "script/lanes.h"
 #include "script/run_outputs.h"
 #include "script/run_settings.h"
 
 namespace photonloupe::script {
 
-// A variable's content: one number, or an array's; lists of neighbours hold ids.
-struct VariableState {
-    std::vector<Number> numbers;
-    std::vector<std::int32_t> list;
-    bool is_set = false;
-};
-
-// What a script has computed so far; passes take their uniform values from it and bring reductions back.
-struct ScriptState {
-    std::vector<VariableState> variables; // of Program::variables
-    Moments pca_2d, pca_3d;
-    Decomposition decomposition;
-};
-
-constexpr std::int32_t DEFAULT_NEIGHBORS = 50;
 constexpr float MOST_NEIGHBORS = 1000;
 
 class Interpreter {
@@ -103,12 +88,11 @@ private:
     void interpret_loop(const PhotonLoop& loop, LoopReport& report);
     Flow iterate(const PhotonLoop& loop, std::uint32_t photon, LoopReport& report);
     void take_back();
-    void list_reduced(const PhotonLoop& loop);
-    Lane make_lane(const PhotonLoop& loop) const;
-    void enter_lane(const PhotonLoop& loop, Lane& lane);
-    void leave_lane(const PhotonLoop& loop, Lane& lane);
-    Lane combine_lanes(const PhotonLoop& loop, std::vector<Lane>& lanes) const;
-    void bring_back(const PhotonLoop& loop, const Lane& total);
+    void begin_reductions(const PhotonLoop& loop);
+    void end_reductions();
+    Lane make_lane() const;
+    void swap_lane(Lane& lane); // the body works on the lane's own values, until swapped again
+    std::vector<std::uint32_t> combine_block(const std::vector<Lane>& lanes) const;
     void commit_iteration();
     void note_exhausted(LoopReport& report, std::uint32_t photon, Span at);
     void check_time(LoopReport& report);
@@ -154,8 +138,8 @@ private:
     ScriptState m_state;
     Iteration m_iteration;
     std::vector<std::vector<std::uint32_t>> m_function_locals; // variables each function's call begins without
-    std::vector<std::uint32_t> m_reduced; // variables of the present loop, in order
-    std::vector<bool> m_is_reduced;       // by variable
+    LaneLayout m_layout;            // of the present loop
+    std::vector<bool> m_is_reduced; // by variable
     std::vector<std::vector<std::uint32_t>> m_choice_photons; // by variable: who gave a least or greatest, in this lane
     std::uint64_t m_fuel = 0;
     std::uint64_t m_steps = 0; // since the clock was looked at
