@@ -12,7 +12,7 @@ void HistogramCounts::add(float value) {
         ++non_finite;
     } else if (value < low) {
         ++below;
-    } else if (value >= high) {
+    } else if (value > high) {
         ++above;
     } else {
         const float place = (value - low) / (high - low) * static_cast<float>(counts.size());
