@@ -154,8 +154,7 @@ nb::tuple find_near(OpenDevice& open, Photons& photons, std::optional<Points> po
 void set_parameters(OpenDevice& open, Photons& photons,
                     nb::ndarray<nb::numpy, const float, nb::ndim<2>, nb::c_contig> values,
                     const std::vector<float>& periods) {
-    photons.parameter_tree.reset();
-    photons.layered_tree.reset();
+    photons.forget_parameters();
     photons.map.parameters = make_parameters(open.device, {values.data(), values.size()},
                                              static_cast<std::uint32_t>(values.shape(1)), periods);
 }

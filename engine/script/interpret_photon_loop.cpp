@@ -12,7 +12,7 @@ Interpreter::Flow Interpreter::execute_photon_loop(const Statement& statement) {
     ++report.runs;
     m_loop_prints = 0;
     m_loop_start = std::chrono::steady_clock::now();
-    report.is_parallel = loop.is_parallel && m_run_pass && m_run_pass(loop, m_state, report);
+    report.is_parallel = loop.is_parallel && m_run_pass && m_run_pass(loop, *this, report);
     if (!report.is_parallel) {
         const std::uint64_t fuel = m_fuel;
         interpret_loop(loop, report);
@@ -177,6 +177,23 @@ void Interpreter::commit_iteration() {
     for (std::string& line : m_iteration.prints)
         if (m_loop_prints++ < PRINT_LIMIT)
             m_outputs.prints.push_back(std::move(line));
+}
+
+void Interpreter::iterate_photons(const PhotonLoop& loop, const std::vector<std::uint32_t>& photons,
+                                  LoopReport& report) {
+    const std::uint64_t fuel = m_fuel;
+    const ScriptState kept = m_state; // locals hold nothing afterwards
+    begin_reductions(loop);
+    for (const std::uint32_t photon : photons) {
+        check_time(report);
+        if (!report.stopped.empty())
+            break;
+        m_progress.report("run script", 0.0);
+        iterate(loop, photon, report);
+    }
+    end_reductions();
+    m_state = kept;
+    m_fuel = fuel;
 }
 
 void Interpreter::replay_photon(const PhotonLoop& loop, std::uint32_t photon, std::vector<std::string>& prints) {

@@ -22,7 +22,7 @@ constexpr float MOST_NEIGHBORS = 1000;
 class Interpreter {
 public:
     // Runs a parallel loop elsewhere and brings what it reduced into the state. False: the interpreter must run it.
-    using RunPass = std::function<bool(const PhotonLoop&, ScriptState&, LoopReport&)>;
+    using RunPass = std::function<bool(const PhotonLoop&, Interpreter&, LoopReport&)>;
 
     // All must outlive it. Throws Error when a value in `settings` is not exposed or out of its range.
     Interpreter(const Program& program, const Plan& plan, HostPhotons& photons, RunOutputs& outputs,
@@ -32,6 +32,9 @@ public:
     void run(const RunPass& run_pass = {});
 
     ScriptState& state() { return m_state; }
+
+    // Runs the body of a loop that reduces nothing for some photons.
+    void iterate_photons(const PhotonLoop& loop, const std::vector<std::uint32_t>& photons, LoopReport& report);
 
     // Runs a loop's body for one photon, for what it prints only.
     void replay_photon(const PhotonLoop& loop, std::uint32_t photon, std::vector<std::string>& prints);

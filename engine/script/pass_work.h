@@ -26,6 +26,16 @@ struct PassRunner::Work {
     bool has_late_photons = false;
     double milliseconds = 0;
     std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+
+    shared::ScriptPass push(const PhotonMap& photons, const RunOutputs& outputs, const RunSettings& settings) const {
+        shared::ScriptPass push{};
+        push.photon_count = static_cast<std::uint32_t>(photons.count);
+        push.seed = settings.seed;
+        push.fuel = settings.fuel;
+        push.parameter_count = static_cast<std::uint32_t>(outputs.columns.declared().size());
+        push.origin = {photons.origin[0], photons.origin[1], photons.origin[2], 0.0};
+        return push;
+    }
 };
 
 } // namespace photonloupe::script

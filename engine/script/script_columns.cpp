@@ -28,6 +28,7 @@ void ScriptColumns::take_to_host() {
 
 void ScriptColumns::declare(std::uint32_t dimension, DeclaredParameter parameter) {
     const std::size_t index = dimension - FIRST_DIMENSION;
+    ++m_version;
     if (m_device_is_newer)
         take_to_host();
     if (m_declared.size() <= index)
@@ -49,6 +50,7 @@ float ScriptColumns::read_parameter(std::size_t index, std::uint64_t photon) {
 void ScriptColumns::write_parameter(std::size_t index, std::uint64_t photon, float value) {
     if (!m_is_on_host || m_device_is_newer)
         take_to_host();
+    ++m_version;
     m_parameters[index][photon] = value;
     m_host_is_newer = true;
 }

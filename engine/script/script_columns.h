@@ -43,10 +43,15 @@ public:
 
     bool has_colors() const { return m_has_colors; } // some photon may have been given one
     void note_colors() { m_has_colors = true; }
+    // Grows with every write, whoever made it.
+    std::uint64_t version() const { return m_version; }
     bool is_on_host() const { return m_is_on_host; } // arrays were made
     bool host_is_newer() const { return m_host_is_newer; }
     bool device_is_newer() const { return m_device_is_newer; }
-    void note_device_wrote() { m_device_is_newer = true; }
+    void note_device_wrote() {
+        m_device_is_newer = true;
+        ++m_version;
+    }
     void note_same() { m_host_is_newer = m_device_is_newer = false; }
     // Called when the host wants what the device has newer.
     void set_download(std::function<void(ScriptColumns&)> download) { m_download = std::move(download); }
@@ -58,6 +63,7 @@ private:
     std::vector<DeclaredParameter> m_declared;
     std::vector<std::vector<float>> m_parameters;
     std::vector<float> m_colors;
+    std::uint64_t m_version = 0;
     bool m_has_colors = false, m_is_on_host = false, m_host_is_newer = false, m_device_is_newer = false;
     std::function<void(ScriptColumns&)> m_download;
 };
