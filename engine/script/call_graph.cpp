@@ -122,7 +122,7 @@ FunctionTable build_function_table(const SyntaxScript& script, Diagnostics& diag
     return table;
 }
 
-bool check_recursion(const SyntaxScript&, const FunctionTable& table, Diagnostics& diagnostics) {
+bool check_recursion(const FunctionTable& table, Diagnostics& diagnostics) {
     return !CycleFinder(table, diagnostics).find();
 }
 

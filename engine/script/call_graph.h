@@ -16,6 +16,6 @@ using FunctionTable = std::map<std::string, const SyntaxFunction*>;
 FunctionTable build_function_table(const SyntaxScript& script, Diagnostics& diagnostics);
 
 // Reports every cycle of calls at the call that closes it. False: there is one.
-bool check_recursion(const SyntaxScript& script, const FunctionTable& table, Diagnostics& diagnostics);
+bool check_recursion(const FunctionTable& table, Diagnostics& diagnostics);
 
 } // namespace photonloupe::script

@@ -20,7 +20,13 @@ struct Draft {
     std::vector<WrittenType> variable_types; // as declared, by variable
     std::vector<WrittenType> result_types;   // as declared, by function copy
     std::vector<PendingSize> sizes;
-    std::vector<bool> is_photon_count;       // by variable: see Variable::holds_photon_count
+    bool is_too_large = false;               // building stopped: nothing more can be said about it
+
+    // How much belongs to the script itself. What follows stands for calls of functions that nothing calls: it is
+    // checked and then dropped.
+    struct Extent {
+        std::size_t statements = 0, functions = 0, variables = 0;
+    } called;
 
     // The bodies of the script and of all its functions' copies, each entered once.
     template <class Visit> void visit_bodies(Visit&& visit) {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The interpreter's statements, and how a run begins.
 #include <algorithm>
+#include <cmath>
 #include <set>
+#include <sstream>
 
+#include "core/error.h"
 #include "script/interpreter.h"
 
 namespace photonloupe::script {
@@ -25,10 +28,21 @@ void collect_locals(const Program& program, const std::vector<Statement>& statem
     });
 }
 
-double find_initial(const Variable& variable) {
-    if (variable.name == "X" || variable.name == "Y" || variable.name == "Z")
-        return variable.name[0] - 'X';
-    return 2.71828182845904523536;
+// Throws Error when the variable is not exposed, or the value not in its range.
+void check_value(const Program& program, const std::string& name, double value) {
+    for (const std::uint32_t index : program.exposed) {
+        const Variable& variable = program.variables[index];
+        if (variable.name != name)
+            continue;
+        const Exposure& range = *variable.exposed;
+        std::ostringstream text;
+        text << name << " is " << value << "; it must be " << (range.is_integer ? "a whole number " : "") << "from "
+             << range.low << " to " << range.high;
+        if (!(value >= range.low && value <= range.high) || (range.is_integer && value != std::trunc(value)))
+            throw Error(text.str());
+        return;
+    }
+    throw Error(program.source.name + " exposes no variable '" + name + "'");
 }
 
 } // namespace
@@ -41,15 +55,17 @@ Interpreter::Interpreter(const Program& program, const Plan& plan, HostPhotons& 
         VariableState& state = m_state.variables.emplace_back();
         state.numbers.resize(std::max<std::size_t>(variable.array_size, 1), Number{.integer = 0});
     }
-    for (std::uint32_t i = 0; i < PREDEFINED_VARIABLES; ++i) {
+    for (std::size_t i = 0; i < std::size(PREDEFINED_VALUES); ++i) {
         VariableState& state = m_state.variables[i];
-        const double value = find_initial(program.variables[i]);
+        const double value = PREDEFINED_VALUES[i];
         if (program.variables[i].type == Type::integer)
             state.numbers[0].integer = static_cast<std::int32_t>(value);
         else
             state.numbers[0].real = static_cast<float>(value);
         state.is_set = true;
     }
+    for (const auto& [name, value] : settings.values)
+        check_value(program, name, value);
     for (const Function& function : program.functions) {
         std::set<std::uint32_t> locals;
         collect_locals(program, function.body, locals);
@@ -61,15 +77,8 @@ void Interpreter::run(const RunPass& run_pass) {
     m_run_pass = run_pass;
     m_fuel = m_settings.fuel;
     m_loop_start = std::chrono::steady_clock::now();
-    std::size_t next = 0; // of the exposed variables, to take the value it is given
     try {
-        for (const Statement& statement : m_program.body) {
-            while (next < m_program.exposed.size() && is_before(m_program.exposed[next], statement))
-                expose(m_program.exposed[next++]);
-            execute(statement);
-        }
-        while (next < m_program.exposed.size())
-            expose(m_program.exposed[next++]);
+        execute(m_program.body);
     } catch (const OutOfFuel& out) {
         const Place place = m_program.source.find_place(out.at.begin);
         m_outputs.stopped = "line " + std::to_string(place.line) + ": this loop took more than " +
@@ -77,22 +86,18 @@ void Interpreter::run(const RunPass& run_pass) {
     }
 }
 
-bool Interpreter::is_before(std::uint32_t variable, const Statement& statement) const {
-    return m_program.variables[variable].exposed->span.begin < statement.span.begin;
-}
-
 // From here on the variable has the value it was given from outside, or what the script assigned.
 void Interpreter::expose(std::uint32_t index) {
     const Variable& variable = m_program.variables[index];
     VariableState& state = m_state.variables[index];
-    const auto given = m_settings.values.find(variable.name);
-    if (given == m_settings.values.end())
-        return;
-    if (variable.type == Type::integer)
-        state.numbers[0].integer = static_cast<std::int32_t>(given->second);
-    else
-        state.numbers[0].real = static_cast<float>(given->second);
-    state.is_set = true;
+    if (const auto given = m_settings.values.find(variable.name); given != m_settings.values.end()) {
+        if (variable.type == Type::integer)
+            state.numbers[0].integer = static_cast<std::int32_t>(given->second);
+        else
+            state.numbers[0].real = static_cast<float>(given->second);
+        state.is_set = true;
+    }
+    m_exposed[index] = state.numbers[0];
 }
 
 void Interpreter::spend_fuel(const Statement& statement) {
@@ -137,6 +142,9 @@ Interpreter::Flow Interpreter::execute(const Statement& statement) {
         return Flow::leave;
     case Kind::next:
         return Flow::next;
+    case Kind::expose:
+        expose(statement.variable);
+        return Flow::on;
     case Kind::give:
         m_has_given = statement.value.has_value();
         if (statement.value)

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <vector>
 
 #include "core/progress.h"
@@ -32,6 +33,9 @@ public:
     void run(const RunPass& run_pass = {});
 
     ScriptState& state() { return m_state; }
+
+    // Of an exposed variable, where it was exposed.
+    Number exposed_value(std::uint32_t variable) const { return m_exposed.at(variable); }
 
     // Runs the body of a loop that reduces nothing for some photons.
     void iterate_photons(const PhotonLoop& loop, const std::vector<std::uint32_t>& photons, LoopReport& report);
@@ -79,7 +83,6 @@ private:
     };
 
     // statements (execute.cpp)
-    bool is_before(std::uint32_t variable, const Statement& statement) const;
     void expose(std::uint32_t variable);
     Flow execute(const std::vector<Statement>& statements);
     Flow execute(const Statement& statement);
@@ -139,6 +142,7 @@ private:
     const Progress& m_progress;
     RunPass m_run_pass;
     ScriptState m_state;
+    std::map<std::uint32_t, Number> m_exposed;
     Iteration m_iteration;
     std::vector<std::vector<std::uint32_t>> m_function_locals; // variables each function's call begins without
     LaneLayout m_layout;            // of the present loop

@@ -42,6 +42,7 @@ struct Variable {
     std::optional<double> constant; // every assignment gives it this one value, known now (X = 0; GAMMA = 3)
     bool holds_photon_count = false; // every assignment gives it getNumPhotons()
     std::optional<Exposure> exposed;
+    std::optional<double> default_value; // of an exposed variable: what it holds where it is exposed
 };
 
 // A scalar's or array element's number, a call, an assignment …; children in `operands`.
@@ -70,6 +71,7 @@ struct Expression {
     std::uint32_t variable = 0;        // index into Program::variables
     Operator operation = Operator::none; // of an assignment: none is =, add is += and ++, …
     bool is_postfix = false;           // x++ and x--: its value is the old one
+    bool may_be_unset = false;         // a read (a compound assignment reads too) that some path reaches before a value
     const Builtin* builtin = nullptr;
     std::uint32_t function = 0;        // index into Program::functions
     std::vector<Expression> operands;
@@ -86,6 +88,7 @@ struct Statement {
         leave,       // break
         next,        // continue
         give,        // return `value`, of a function
+        expose,      // `variable` takes the value the run gives it, if it gives one (uniform code only)
     };
     Kind kind = Kind::expression;
     Span span;                       // of the statement's head (for a loop: to its closing parenthesis)
@@ -107,7 +110,8 @@ struct Function {
     bool may_end_without_value = false;    // then the call's value is NaN (integer: 0) and reported
 };
 
-constexpr std::uint32_t PREDEFINED_VARIABLES = 4; // X, Y, Z, E
+// What X, Y, Z and E hold before a script assigns them.
+constexpr double PREDEFINED_VALUES[] = {0, 1, 2, 2.718281828459045};
 
 struct Program {
     Source source;

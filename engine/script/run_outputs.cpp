@@ -7,6 +7,41 @@
 
 namespace photonloupe::script {
 
+const char* describe_fault(Fault kind) {
+    switch (kind) {
+    case Fault::unset_variable:
+        return "a variable is read before it is set";
+    case Fault::array_index:
+        return "an index is outside the array";
+    case Fault::list_index:
+        return "an index is outside the neighbor list";
+    case Fault::photon_index:
+        return "there is no such photon";
+    case Fault::vertex_index:
+        return "the photon's path has no such vertex";
+    case Fault::axis_index:
+        return "an axis or channel is not 0, 1 or 2";
+    case Fault::dimension_index:
+        return "the parameter is not declared, or is a coordinate, which cannot be set";
+    case Fault::eigen_index:
+        return "there is no such principal component; was decomposePCA called?";
+    case Fault::not_integral:
+        return "an index, axis, photon or dimension is not a whole number";
+    case Fault::modulo_by_zero:
+        return "a remainder by 0 is taken as 0";
+    case Fault::does_not_fit:
+        return "a number does not fit an integer";
+    case Fault::no_value:
+        return "a function ended without returning a value";
+    case Fault::declaration:
+        return "a parameter is declared with a gap before its dimension, or with bounds that do not ascend";
+    case Fault::query:
+        return "k is not 1 to 1,000, or beta is negative";
+    default:
+        return "a histogram's bounds do not ascend, or its bins are not 1 to 4,096";
+    }
+}
+
 void HistogramCounts::add(float value) {
     if (!std::isfinite(value)) {
         ++non_finite;

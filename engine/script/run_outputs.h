@@ -25,6 +25,9 @@ struct HistogramCounts {
     void add(float value);
 };
 
+// As a report says it.
+const char* describe_fault(Fault kind);
+
 struct FaultReport {
     FaultSite site;
     std::uint32_t first_photon = NO_PHOTON; // NO_PHOTON: in uniform code
