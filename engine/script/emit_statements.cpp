@@ -47,6 +47,7 @@ void Emitter::emit(const Statement& s) {
             m_loops.back().before_next();
         return write_line("continue;");
     case Statement::Kind::give: return emit_return(s);
+    case Statement::Kind::expose: return;
     }
 }
 
