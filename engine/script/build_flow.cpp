@@ -192,6 +192,7 @@ private:
         case Statement::Kind::branch: return visit_branch(s);
         case Statement::Kind::loop: return visit_loop(s);
         case Statement::Kind::photon_loop: return visit_photon_loop(s);
+        case Statement::Kind::expose: return;
         case Statement::Kind::block: return visit(s.body);
         case Statement::Kind::leave: return jump(m_exits.back().exit);
         case Statement::Kind::next: return jump(m_exits.back().again);

@@ -4,6 +4,7 @@
 
 #include "script/builtins.h"
 #include "script/plan_loop.h"
+#include "script/substitute.h"
 
 namespace photonloupe::script {
 namespace {
@@ -12,27 +13,6 @@ bool is_written(const LoopFacts& facts, std::uint32_t variable) {
     const auto found = facts.accesses.names.find(variable);
     return variable == facts.statement.variable ||
            (found != facts.accesses.names.end() && !(found->second.writes.empty() && found->second.steps.empty()));
-}
-
-// Parameters are replaced by what they are given, constants by their numbers.
-Expression substitute(const LoopFacts& facts, const PhotonLoop& loop, const Expression& expression) {
-    if (expression.kind == Expression::Kind::variable) {
-        const Expression& given = resolve_given(loop, expression);
-        if (&given != &expression)
-            return substitute(facts, loop, given);
-        if (const std::optional<double> constant = find_constant(facts.program, loop, expression)) {
-            Expression number;
-            number.type = expression.type;
-            number.span = expression.span;
-            number.integer = expression.type == Type::integer ? std::int32_t(*constant) : 0;
-            number.real = float(*constant);
-            return number;
-        }
-    }
-    Expression copy = expression;
-    for (Expression& operand : copy.operands)
-        operand = substitute(facts, loop, operand);
-    return copy;
 }
 
 bool is_uniform(const LoopFacts& facts, const Expression& expression);
@@ -77,7 +57,7 @@ void add_query(const LoopFacts& facts, PhotonLoop& loop, const Expression& call,
     query.is_at_loop_photon = is_loop_photon(loop, call.operands[0]);
     for (std::size_t i = 1; i < call.operands.size(); ++i) {
         std::optional<Expression>& target = i == 1 ? query.count : query.beta;
-        target = substitute(facts, loop, call.operands[i]);
+        target = substitute_given(facts.program, loop, call.operands[i]);
         if (is_uniform(facts, *target))
             continue;
         diagnostics.add("E071", call.operands[i].span,

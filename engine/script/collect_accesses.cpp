@@ -134,7 +134,8 @@ private:
             if (m_inner_loops == 0)
                 m_found.leaves.push_back(s.span);
             return;
-        case Statement::Kind::next: return;
+        case Statement::Kind::next:
+        case Statement::Kind::expose: return;
         case Statement::Kind::give:
             if (s.value)
                 visit(*s.value);

@@ -2,7 +2,9 @@
 // Liveness: walks a script's blocks backwards until nothing changes.
 #include "script/flow.h"
 
+#include <algorithm>
 #include <deque>
+#include <iterator>
 
 namespace photonloupe::script {
 namespace {
@@ -54,6 +56,7 @@ std::vector<NameSet> find_live_names(const Flow& flow, std::uint32_t first, std:
 
 NameSet find_unset_reads(const Flow& flow, const std::vector<NameSet>& live) {
     NameSet unset = live[0];
+    std::fill_n(unset.begin(), std::size(PREDEFINED_VALUES), false);
     for (std::uint32_t block = 0; block < flow.blocks.size(); ++block) {
         NameSet here = join_next(flow, live, 0, block);
         const std::vector<FlowAccess>& accesses = flow.blocks[block].accesses;

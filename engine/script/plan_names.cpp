@@ -2,6 +2,8 @@
 // Sees through functions' parameters: what a name in an inlined body stands for.
 #include "script/plan.h"
 
+#include "script/substitute.h"
+
 namespace photonloupe::script {
 
 bool PhotonLoop::has_reductions() const {
@@ -43,11 +45,31 @@ std::optional<double> find_constant(const Program& program, const PhotonLoop& lo
     if (e.kind == Expression::Kind::number)
         return e.type == Type::integer ? double(e.integer) : double(e.real);
     if (e.kind == Expression::Kind::variable && !loop.unset_reads.contains(e.variable))
-        return program.variables[e.variable].constant;
+        return program.variables[e.variable].exposed ? std::nullopt : program.variables[e.variable].constant;
     if (e.kind == Expression::Kind::unary && e.operation == Operator::negate)
         if (const std::optional<double> value = find_constant(program, loop, e.operands[0]))
             return -*value;
     return std::nullopt;
+}
+
+Expression substitute_given(const Program& program, const PhotonLoop& loop, const Expression& expression) {
+    if (expression.kind == Expression::Kind::variable) {
+        const Expression& given = resolve_given(loop, expression);
+        if (&given != &expression)
+            return substitute_given(program, loop, given);
+        if (const std::optional<double> constant = find_constant(program, loop, expression)) {
+            Expression number;
+            number.type = expression.type;
+            number.span = expression.span;
+            number.integer = expression.type == Type::integer ? std::int32_t(*constant) : 0;
+            number.real = float(*constant);
+            return number;
+        }
+    }
+    Expression copy = expression;
+    for (Expression& operand : copy.operands)
+        operand = substitute_given(program, loop, operand);
+    return copy;
 }
 
 } // namespace photonloupe::script

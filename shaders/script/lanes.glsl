@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Running values of reductions (engine/script/reductions.h): a word for each slot of a block and lane of 64. Define SLOTS.
+// Running values of reductions (engine/script/reductions.h): a word for each slot of a block and lane of 64.
 #pragma binding uint lane_words
 
 uint lane_base; // of the present block and lane
 
 uint locate_slot(uint slot) { return lane_base + slot * SCRIPT_LANES; }
 float load_real(uint slot) { return uintBitsToFloat(lane_words[locate_slot(slot)]); }
+uint load_word(uint slot) { return lane_words[locate_slot(slot)]; }
 int load_integer(uint slot) { return int(lane_words[locate_slot(slot)]); }
 void store(uint slot, float value) { lane_words[locate_slot(slot)] = floatBitsToUint(value); }
+void store(uint slot, uint value) { lane_words[locate_slot(slot)] = value; }
 void store(uint slot, int value) { lane_words[locate_slot(slot)] = uint(value); }
 
 // Elements of arrays; `place` is -1 for none.

@@ -2,9 +2,10 @@
 // Neighbour lists: rows of ids, nearest first, -1 behind the last. A list is its first word and its length.
 #pragma binding readonly int neighbor_rows
 
-// The row of a photon (-1: none) in a query whose uniform words begin at `words`.
-ivec2 find_neighbors(uint words, int id) {
+// The row of a photon (-1: none) in a query whose uniform words begin at `words`; k is 0 where it is out of range.
+ivec2 find_neighbors(uint words, int id, uint bad_query) {
     uint first = uniform_words[words], k = uniform_words[words + 1u];
+    fault_if(k == 0u, bad_query);
     uint row = uint(id) - uniform_words[words + 2u];
     if (row >= uniform_words[words + 3u] || id < 0) return ivec2(0);
     int start = int(first + row * k);

@@ -61,20 +61,37 @@ int find_place(float index, int size, uint outside, uint not_whole) {
     return is_good ? int(index) : -1;
 }
 
-// For a condition: whether it is inside.
+// An index that is looked at only where the one before it was good.
+int find_place_after(int before, int index, int size, uint outside) {
+    return before < 0 ? -1 : find_place(index, size, outside);
+}
+int find_place_after(int before, float index, int size, uint outside, uint not_whole) {
+    return before < 0 ? -1 : find_place(index, size, outside, not_whole);
+}
+
 bool is_inside(int index, int size, uint outside) { return find_place(index, size, outside) >= 0; }
 
+bool is_dry() { return (settings.flags & SCRIPT_IS_DRY) != 0u; }
+
 void start_photon() {
-    for (uint word = 0u; word < FAULT_WORDS; ++word) fault_bits[word] = 0u;
     fuel_left = settings.fuel;
     is_out_of_fuel = false;
 }
 
-void count_faults() {
-    for (uint word = 0u; word < FAULT_WORDS; ++word)
-        for (uint bits = fault_bits[word]; bits != 0u && take_turn(); bits &= bits - 1u) {
-            uint site = word * 32u + uint(findLSB(bits));
-            atomicAdd(fault_words[site * FAULT_STRIDE], 1u);
-            atomicMin(fault_words[site * FAULT_STRIDE + 1u], uint(photon));
-        }
+// Of the sites first_site … first_site + 31.
+void count_faults(uint bits, uint first_site) {
+    while (bits != 0u) {
+        uint site = first_site + uint(findLSB(bits));
+        bits &= bits - 1u;
+        ++turns;
+        atomicAdd(fault_words[site * FAULT_STRIDE], 1u);
+        atomicMin(fault_words[site * FAULT_STRIDE + 1u], uint(photon));
+    }
+}
+
+void report_turns() {
+    uint most = subgroupMax(turns);
+    if (!subgroupElect()) return;
+    atomicMax(status_words[STATUS_MOST_TURNS], most);
+    if (most >= TURN_BUDGET) atomicOr(status_words[STATUS_FLAGS], STATUS_TURNS);
 }
