@@ -28,7 +28,9 @@ RenderMode parse_mode(const std::string& name) {
         return RenderMode::direct;
     if (name == "photons")
         return RenderMode::photons;
-    throw Error("mode is '" + name + "'; it must be composite, caustic, direct or photons");
+    if (name == "false-color")
+        return RenderMode::false_color;
+    throw Error("mode is '" + name + "'; it must be composite, caustic, direct, photons or false-color");
 }
 
 nb::ndarray<nb::numpy, float> estimate(OpenDevice& open, Photons& photons, Matrix<const double, 3> points,

@@ -154,10 +154,26 @@ nb::tuple find_near(OpenDevice& open, Photons& photons, std::optional<Points> po
 void set_parameters(OpenDevice& open, Photons& photons,
                     nb::ndarray<nb::numpy, const float, nb::ndim<2>, nb::c_contig> values,
                     const std::vector<float>& periods) {
-    photons.parameter_tree.reset();
-    photons.layered_tree.reset();
+    photons.forget_parameters();
     photons.map.parameters = make_parameters(open.device, {values.data(), values.size()},
                                              static_cast<std::uint32_t>(values.shape(1)), periods);
+}
+
+// Columns that are absent stay empty.
+void set_paths(OpenDevice& open, Photons& photons, const nb::dict& columns) {
+    const auto take = [&]<class T>(const char* name, T) {
+        return columns.contains(name) ? take_span<T>(columns, name) : std::span<const T>{};
+    };
+    const PathArrays arrays{take("path_offsets", std::int64_t{}),  take("path_vertices", 0.0f),
+                            take("path_normals", 0.0f),            take("path_interactions", std::uint8_t{}),
+                            take("path_objects", std::int32_t{}), take("path_scatter", 0.0f)};
+    photons.map.paths = make_paths(open.device, arrays, photons.map.origin);
+}
+
+// Rows of NaN: the photon has none.
+void set_colors(OpenDevice& open, Photons& photons,
+                nb::ndarray<nb::numpy, const float, nb::shape<-1, 3>, nb::c_contig> values) {
+    photons.map.colors = make_colors(open.device, {values.data(), values.size()});
 }
 
 // A column of the paths, or None when they were not recorded.
@@ -223,6 +239,10 @@ void bind_photons(nb::module_& module) {
         "center, low, high.");
     module.def("set_parameters", &set_parameters, nb::arg("device"), nb::arg("photons"), nb::arg("values"),
                nb::arg("periods"), "Replace a map's parameters (n, m); a period of 0: it does not wrap.");
+    module.def("set_paths", &set_paths, nb::arg("device"), nb::arg("photons"), nb::arg("columns"),
+               "Give a map the checked path columns of its photons.");
+    module.def("set_colors", &set_colors, nb::arg("device"), nb::arg("photons"), nb::arg("values"),
+               "Replace a map's false colors (n, 3); NaN: none, shown in grey.");
 }
 
 } // namespace photonloupe::bindings

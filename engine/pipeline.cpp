@@ -2,6 +2,8 @@
 // Connects the stages and remembers what each was given.
 #include "pipeline.h"
 
+#include "photons/map_columns.h"
+
 namespace photonloupe {
 namespace {
 
@@ -13,6 +15,19 @@ std::string make_key(const Scene& scene, const TraceSettings& settings) {
           std::uint64_t{settings.paths}})
         key += '/' + std::to_string(value);
     return key;
+}
+
+void set_script_parameters(gpu::Device& device, Photons& photons, std::span<const float> values,
+                           const std::vector<script::DeclaredParameter>& declared) {
+    photons.forget_parameters();
+    photons.map.parameters.reset();
+    if (declared.empty())
+        return;
+    std::vector<float> periods;
+    for (const script::DeclaredParameter& parameter : declared)
+        periods.push_back(parameter.is_periodic ? parameter.high - parameter.low : 0.0f);
+    photons.map.parameters =
+        make_parameters(device, values, static_cast<std::uint32_t>(declared.size()), std::move(periods));
 }
 
 } // namespace
@@ -117,6 +132,45 @@ std::shared_ptr<const LayeredTree> Workbench::find_layered_tree(Photons& photons
     return photons.layered_tree;
 }
 
+gpu::Buffer Workbench::find_script_rows(Photons& photons, script::NeighborQuery::Space space,
+                                        std::span<const std::uint32_t> ids, std::uint32_t k, float beta,
+                                        const Progress& progress) {
+    using Space = script::NeighborQuery::Space;
+    return space == Space::world       ? find_neighbors_of(photons, ids, k, progress).ids
+           : space == Space::parameter ? find_parameter_neighbors_of(photons, ids, k, progress).ids
+                                       : find_layer_neighbors_of(photons, ids, k, beta, progress).ids;
+}
+
+void Workbench::take_script_columns(Photons& photons, const script::ScriptRun& run) {
+    set_script_parameters(m_device, photons, run.values, script::list_declared(run));
+    photons.map.colors.reset();
+    if (run.colors)
+        photons.map.colors = make_colors(m_device, script::choose_shown_colors(run));
+}
+
+script::ScriptRun Workbench::run_script(Photons& photons, const script::CompiledScript& script,
+                                        const script::RunSettings& settings, const script::KeptColumns* kept,
+                                        const Progress& progress) {
+    std::optional<ParameterColumns> before = std::move(photons.map.parameters);
+    photons.map.parameters.reset();
+    try {
+        const script::ScriptQueries queries{
+            [&](script::NeighborQuery::Space space, std::span<const std::uint32_t> ids, std::uint32_t k, float beta) {
+                return find_script_rows(photons, space, ids, k, beta, progress);
+            },
+            [&](std::span<const float> values, const std::vector<script::DeclaredParameter>& declared) {
+                set_script_parameters(m_device, photons, values, declared);
+            }};
+        script::ScriptRun run = script::run_script(m_device, photons.map, script, settings, kept, queries, progress);
+        take_script_columns(photons, run);
+        return run;
+    } catch (...) {
+        photons.map.parameters = std::move(before);
+        photons.forget_parameters();
+        throw;
+    }
+}
+
 Relaxation Workbench::start_relaxation(Photons& photons, const Scene* scene, const RelaxSettings& settings,
                                        const Progress& progress) {
     const KdTree& tree = find_tree(photons, progress);
@@ -139,7 +193,8 @@ gpu::Buffer Workbench::estimate_irradiance(Photons& photons, std::span<const glm
                                            const Progress& progress) {
     require_k(settings.k);
     const KdTree& tree = find_tree(photons, progress);
-    return photonloupe::estimate_irradiance(m_device, photons.map, tree, gpu::make_buffer(m_device, points, "points"),
+    return photonloupe::estimate_irradiance(m_device, photons.map.power_object, tree,
+                                            gpu::make_buffer(m_device, points, "points"),
                                             gpu::make_buffer(m_device, normals, "normals"), order_points(points),
                                             settings, progress);
 }

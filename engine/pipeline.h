@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program on one page: the stages in the order they run. Everything else delegates to a stage's folder.
 //
-//   load_scene → trace_photons → (run_script →) relax_photons → estimate_irradiance / render → save
+//   load_scene → trace_photons → run_script → relax_photons → estimate_irradiance / render → save
 #pragma once
 
 #include <memory>
@@ -12,6 +12,7 @@
 #include "photons/layered_queries.h"
 #include "relax/isotropy.h"
 #include "relax/relaxation.h"
+#include "script/run_script.h"
 #include "trace/trace_photons.h"
 
 namespace photonloupe {
@@ -24,6 +25,12 @@ struct Photons {
     std::optional<KdTree> tree;
     std::optional<ParameterTree> parameter_tree;
     std::shared_ptr<const LayeredTree> layered_tree; // relaxations keep it
+
+    // Trees of parameters that are no longer the map's.
+    void forget_parameters() {
+        parameter_tree.reset();
+        layered_tree.reset();
+    }
 };
 
 // Runs the stages on one device and remembers their inputs: a stage whose inputs did not change does not run again.
@@ -61,6 +68,11 @@ public:
     // Axis ratios of photons in world space around their k neighbours in parameter space, by id ([SJL15] eq. 5).
     std::vector<float> measure_isotropy(Photons& photons, std::uint32_t k, const Progress& progress);
 
+    // Gives the photons the parameters and colors that a script computes; on an exception they keep what they have.
+    script::ScriptRun run_script(Photons& photons, const script::CompiledScript& script,
+                                 const script::RunSettings& settings, const script::KeptColumns* kept,
+                                 const Progress& progress);
+
     // Measures the constraint and stands ready for the first step; `scene` may be null. The photons must outlive it.
     Relaxation start_relaxation(Photons& photons, const Scene* scene, const RelaxSettings& settings,
                                 const Progress& progress);
@@ -75,6 +87,10 @@ public:
     gpu::Device& device() { return m_device; }
 
 private:
+    gpu::Buffer find_script_rows(Photons& photons, script::NeighborQuery::Space space,
+                                 std::span<const std::uint32_t> ids, std::uint32_t k, float beta,
+                                 const Progress& progress);
+    void take_script_columns(Photons& photons, const script::ScriptRun& run);
     std::shared_ptr<const SceneBuffers> find_buffers(const Scene& scene);
 
     gpu::Device& m_device;

@@ -6,7 +6,7 @@
 
 namespace photonloupe {
 
-gpu::Buffer estimate_irradiance(gpu::Device& device, const PhotonMap& photons, const KdTree& tree,
+gpu::Buffer estimate_irradiance(gpu::Device& device, const gpu::Buffer& power, const KdTree& tree,
                                 const gpu::Buffer& points, const gpu::Buffer& normals,
                                 std::span<const std::uint32_t> order, const EstimateSettings& settings,
                                 const Progress& progress) {
@@ -36,7 +36,7 @@ gpu::Buffer estimate_irradiance(gpu::Device& device, const PhotonMap& photons, c
                                {"ranked", buffers.ranked},
                                {"unanswered", buffers.unanswered},
                                {"tree_normals", tree.normals},
-                               {"power_object", photons.power_object},
+                               {"power_object", power},
                                {"query_points", points},
                                {"query_normals", normals},
                                {"query_order", buffers.order},

@@ -22,9 +22,10 @@ struct EstimateSettings {
     float flatness = SURFACE_FLATNESS; // 0: no test
 };
 
-// W/m² at each point (xyz relative to the map's origin, with unit normals; a zero normal: 0); rgb, w unused.
+// W/m² at each point (xyz relative to the map's origin, with unit normals; a zero normal: 0) from photons with the
+// flux `power` (rgb, by id); w: what photons that each carry 1 W would give.
 // `order` lists all points in the order to visit them (see photons/query_tree.h).
-gpu::Buffer estimate_irradiance(gpu::Device& device, const PhotonMap& photons, const KdTree& tree,
+gpu::Buffer estimate_irradiance(gpu::Device& device, const gpu::Buffer& power, const KdTree& tree,
                                 const gpu::Buffer& points, const gpu::Buffer& normals,
                                 std::span<const std::uint32_t> order, const EstimateSettings& settings,
                                 const Progress& progress = {});

@@ -45,6 +45,8 @@ struct Renderer {
 
     void trace_eye(const FilmScratch& scratch);
     void light_direct(const FilmScratch& scratch);
+    gpu::Buffer gather(const FilmScratch& scratch, const gpu::Buffer& power, const Progress& progress);
+    void color(const FilmScratch& scratch, const gpu::Buffer& irradiance, const Progress& progress);
     void accumulate(const FilmScratch& scratch, const gpu::Buffer& irradiance);
     void render_chunk(const FilmScratch& scratch, const Progress& progress);
     Image run(const Progress& progress);
@@ -76,6 +78,21 @@ void Renderer::light_direct(const FilmScratch& scratch) {
     commands.run();
 }
 
+gpu::Buffer Renderer::gather(const FilmScratch& scratch, const gpu::Buffer& power, const Progress& progress) {
+    const std::uint64_t slots = std::uint64_t{film_push.sample_count} * film_push.slot_count;
+    return estimate_irradiance(device, power, map->tree, scratch.hit_point, scratch.hit_normal, keep_order(slots),
+                               settings.estimate, progress);
+}
+
+void Renderer::color(const FilmScratch& scratch, const gpu::Buffer& irradiance, const Progress& progress) {
+    const gpu::Buffer sums = gather(scratch, *map->photons.colors, progress);
+    gpu::Commands commands(device, "color irradiance");
+    commands.dispatch({"estimate/color_irradiance.comp", 64, {}, {}},
+                      {{"color_sums", sums}, {"irradiance", irradiance}}, film_push,
+                      std::uint64_t{film_push.sample_count} * film_push.slot_count);
+    commands.run();
+}
+
 void Renderer::accumulate(const FilmScratch& scratch, const gpu::Buffer& irradiance) {
     gpu::Commands commands(device, "accumulate film");
     commands.dispatch({"estimate/accumulate_film.comp", 64, {}, {}},
@@ -92,11 +109,10 @@ void Renderer::render_chunk(const FilmScratch& scratch, const Progress& progress
     trace_eye(scratch);
     if (film_push.uses_direct)
         light_direct(scratch);
-    const std::uint64_t slots = std::uint64_t{film_push.sample_count} * film_push.slot_count;
-    const gpu::Buffer irradiance =
-        film_push.uses_map ? estimate_irradiance(device, map->photons, map->tree, scratch.hit_point, scratch.hit_normal,
-                                                 keep_order(slots), settings.estimate, progress)
-                           : gpu::Buffer(device, sizeof(glm::vec4), "no irradiance");
+    const gpu::Buffer irradiance = film_push.uses_map ? gather(scratch, map->photons.power_object, progress)
+                                                      : gpu::Buffer(device, sizeof(glm::vec4), "no irradiance");
+    if (film_push.uses_colors)
+        color(scratch, irradiance, progress);
     accumulate(scratch, irradiance);
 }
 
@@ -139,6 +155,8 @@ void require_settings(const RenderSettings& settings, const RenderedMap* map) {
         throw Error("render: width × height × samples exceeds 2^32; render fewer samples, or the image in parts");
     if (!map && settings.mode != RenderMode::direct)
         throw Error("render: this mode needs a photon map; trace one, or use mode=\"direct\"");
+    if (settings.mode == RenderMode::false_color && !map->photons.colors)
+        throw Error("render: the photons have no colors; run a script that calls setPhotonColourEncoding first");
 }
 
 } // namespace
@@ -161,8 +179,10 @@ Image render_image(gpu::Device& device, const Scene& scene, const SceneBuffers& 
     renderer.eye.max_bounces = settings.max_bounces;
     renderer.eye.slot_count = renderer.film_push.slot_count = has_glass ? DIELECTRIC_SLOTS : 1;
     renderer.film_push.light_count = static_cast<std::uint32_t>(scene.lights.size());
-    renderer.film_push.uses_emission = settings.mode != RenderMode::caustic;
-    renderer.film_push.uses_map = settings.mode == RenderMode::caustic || is_composite;
+    const bool is_colored = settings.mode == RenderMode::false_color;
+    renderer.film_push.uses_emission = settings.mode != RenderMode::caustic && !is_colored;
+    renderer.film_push.uses_map = settings.mode == RenderMode::caustic || is_composite || is_colored;
+    renderer.film_push.uses_colors = is_colored;
     renderer.film_push.uses_direct = settings.mode == RenderMode::direct || (is_composite && map->store != Store::all);
     return renderer.run(progress);
 }

@@ -14,6 +14,7 @@ enum class RenderMode {
     caustic,   // the map alone
     direct,    // emission + direct
     photons,   // stored photons as points
+    false_color, // the mean color of the photons around, times the luminance of their irradiance
 };
 
 struct RenderSettings {

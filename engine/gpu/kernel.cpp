@@ -3,6 +3,7 @@
 #include "gpu/kernel.h"
 
 #include "core/error.h"
+#include "core/hash.h"
 #include "gpu/compile_glsl.h"
 #include "gpu/device_impl.h"
 
@@ -18,6 +19,8 @@ std::string make_key(const KernelSource& source) {
         key += '|' + define;
     for (std::uint32_t constant : source.constants)
         key += '#' + std::to_string(constant);
+    if (!source.text.empty())
+        key += '@' + hash_bytes(source.text);
     return key;
 }
 
@@ -91,7 +94,7 @@ VkPipeline create_pipeline(const Device::Impl& device, const KernelSource& sourc
 } // namespace
 
 Kernel::Kernel(Device::Impl& device, const KernelSource& source)
-    : m_device(device), m_source(source), m_expanded(expand_source(source.path)) {
+    : m_device(device), m_source(source), m_expanded(expand_source(source)) {
     if (m_source.workgroup_size == 0)
         m_source.workgroup_size = device.limits.subgroup_size;
     m_set_layout = create_set_layout(device, m_expanded.bindings);

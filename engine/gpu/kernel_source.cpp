@@ -41,19 +41,12 @@ BindingDeclaration parse_binding(const std::string& line, const std::string& whe
     return declaration;
 }
 
-void append_file(Expansion& expansion, const std::string& path, const std::string& included_from) {
-    if (!expansion.seen.insert(path).second)
-        return;
-    std::ifstream file;
-    for (const std::string& folder : expansion.folders)
-        if (!file.is_open())
-            file.open(std::filesystem::path(folder) / path);
-    if (!file.is_open())
-        throw Error("kernel source '" + path + "' is missing" + included_from +
-                    "; reinstall, or point PHOTONLOUPE_SHADER_DIR at the shaders folder");
+void append_file(Expansion& expansion, const std::string& path, const std::string& included_from);
+
+void append_lines(Expansion& expansion, std::istream& lines, const std::string& path) {
     expansion.text << "#line 1 \"" << path << "\"\n";
     std::string line;
-    for (int number = 1; std::getline(file, line); ++number) {
+    for (int number = 1; std::getline(lines, line); ++number) {
         const std::string where = path + ":" + std::to_string(number);
         if (line.rfind("#include \"", 0) == 0) {
             const std::size_t end = line.find('"', 10);
@@ -65,6 +58,19 @@ void append_file(Expansion& expansion, const std::string& path, const std::strin
             expansion.text << line << '\n';
         }
     }
+}
+
+void append_file(Expansion& expansion, const std::string& path, const std::string& included_from) {
+    if (!expansion.seen.insert(path).second)
+        return;
+    std::ifstream file;
+    for (const std::string& folder : expansion.folders)
+        if (!file.is_open())
+            file.open(std::filesystem::path(folder) / path);
+    if (!file.is_open())
+        throw Error("kernel source '" + path + "' is missing" + included_from +
+                    "; reinstall, or point PHOTONLOUPE_SHADER_DIR at the shaders folder");
+    append_lines(expansion, file, path);
 }
 
 std::string declare_storage(const BindingDeclaration& binding, std::size_t index) {
@@ -112,10 +118,15 @@ std::vector<std::string> find_shader_folders() {
     return {"shaders"};
 }
 
-ExpandedSource expand_source(const std::string& path) {
+ExpandedSource expand_source(const KernelSource& source) {
     Expansion expansion;
     expansion.folders = find_shader_folders();
-    append_file(expansion, path, "");
+    if (source.text.empty()) {
+        append_file(expansion, source.path, "");
+    } else {
+        std::istringstream lines(source.text);
+        append_lines(expansion, lines, source.path);
+    }
     expansion.result.text = expansion.text.str();
     return std::move(expansion.result);
 }

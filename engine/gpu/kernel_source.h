@@ -15,6 +15,7 @@ struct KernelSource {
     std::uint32_t workgroup_size = 64;    // 0: one subgroup
     std::vector<std::string> defines;     // "HAS_DIELECTRIC", "METRIC 2"
     std::vector<std::uint32_t> constants; // constant_id 1, 2, …
+    std::string text;                     // generated kernels: what would be the file's content
 };
 
 enum class BindingKind { storage, texel };
@@ -36,8 +37,8 @@ struct ExpandedSource {
 // `shaders` beside the program.
 std::vector<std::string> find_shader_folders();
 
-// Reads a kernel with its includes. Throws Error naming the file and line.
-ExpandedSource expand_source(const std::string& path);
+// Reads a kernel, or takes its text, with the files it includes. Throws Error naming the file and line.
+ExpandedSource expand_source(const KernelSource& source);
 
 // The text glslang gets. `by_address` has a bit for each binding whose buffer is too large for a descriptor.
 std::string declare_bindings(const ExpandedSource& source, const std::vector<std::string>& defines,

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <numeric>
+#include <sstream>
 
 #include "photons/query_tree.h"
 
@@ -14,6 +15,10 @@ namespace {
 constexpr const char* STAGE = "find layers";
 // The tree's boxes have three axes.
 constexpr std::size_t TREE_AXES = 3;
+
+// Squares of parameters must be floats, and squares of their differences too.
+constexpr float LARGEST_PARAMETER = 1e18f;
+constexpr float LEAST_EXTENT = 1e-12f;
 
 struct Extents {
     std::vector<float> lo, hi;
@@ -39,6 +44,26 @@ Extents find_extents(const std::vector<float>& values, std::uint32_t count, std:
         if (extents.lo[i] > extents.hi[i])
             extents.lo[i] = extents.hi[i] = 0.0f; // no photon is set
     return extents;
+}
+
+// Distances between parameters beyond these would be infinite or nothing, silently.
+void check_extents(const Extents& extents) {
+    std::ostringstream text;
+    float widest = 0.0f;
+    for (std::size_t i = 0; i < extents.lo.size(); ++i) {
+        const float largest = std::max(std::abs(extents.lo[i]), std::abs(extents.hi[i]));
+        if (largest > LARGEST_PARAMETER) {
+            text << "parameter " << i << " reaches " << largest << ": squared distances beyond " << LARGEST_PARAMETER
+                 << " do not fit 32-bit floats; scale the parameters down";
+            throw Error(text.str());
+        }
+        widest = std::max(widest, extents.hi[i] - extents.lo[i]);
+    }
+    if (widest > 0.0f && widest < LEAST_EXTENT) {
+        text << "all parameters lie within " << widest << ": squared distances below " << LEAST_EXTENT
+             << " vanish in 32-bit floats; scale the parameters up";
+        throw Error(text.str());
+    }
 }
 
 // Parameters in the order of their extent, widest first.
@@ -91,6 +116,7 @@ ParameterTree build_parameter_tree(gpu::Device& device, const PhotonMap& photons
     const std::size_t stride = 4 * columns.count_rows();
     const std::vector<float> values = columns.values.read<float>(photons.count * stride);
     const Extents extents = find_extents(values, columns.count, stride);
+    check_extents(extents);
     const std::vector<std::uint32_t> order = order_by_extent(extents);
     const std::size_t axis_count = std::min<std::size_t>(TREE_AXES, columns.count);
     const std::vector<glm::vec4> positions = photons.position_emitter.read<glm::vec4>(photons.count);

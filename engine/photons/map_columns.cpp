@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include <glm/vec4.hpp>
 
+#include "core/error.h"
 #include "shared/trace.h"
 
 namespace photonloupe {
@@ -79,6 +81,38 @@ PhotonMap make_map(gpu::Device& device, const MapColumns& columns) {
     map.normal_index = gpu::make_buffer(device, normal, "photon normals");
     map.power_object = gpu::make_buffer(device, power, "photon powers");
     return map;
+}
+
+PathColumns make_paths(gpu::Device& device, const PathArrays& arrays, const std::array<double, 3>& origin) {
+    PathColumns paths;
+    paths.vertex_count = arrays.vertices.size() / 3;
+    if (paths.vertex_count > std::numeric_limits<std::uint32_t>::max())
+        throw Error("the paths have " + std::to_string(paths.vertex_count) + " vertices; at most 2^32 - 1 fit");
+    const std::vector<std::uint32_t> starts(arrays.offsets.begin(), arrays.offsets.end());
+    std::vector<glm::vec4> vertices(paths.vertex_count), normals(paths.vertex_count, glm::vec4(0.0f));
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        for (int axis = 0; axis < 3; ++axis)
+            vertices[i][axis] = static_cast<float>(arrays.vertices[3 * i + axis] - origin[axis]);
+        const std::uint32_t interaction = arrays.interactions.empty() ? 0u : arrays.interactions[i];
+        const bool has_object = !arrays.objects.empty() && arrays.objects[i] >= 0;
+        const std::uint32_t object = has_object ? static_cast<std::uint32_t>(arrays.objects[i]) : shared::NO_OBJECT;
+        vertices[i].w = std::bit_cast<float>(interaction << 24 | object);
+        for (int axis = 0; axis < 3 && !arrays.normals.empty(); ++axis)
+            normals[i][axis] = arrays.normals[3 * i + axis];
+        normals[i].w = arrays.scatter.empty() ? 0.0f : arrays.scatter[i];
+    }
+    paths.starts = gpu::make_buffer(device, starts, "path starts");
+    paths.vertices = gpu::make_buffer(device, vertices, "path vertices");
+    paths.normals = gpu::make_buffer(device, normals, "path normals");
+    return paths;
+}
+
+gpu::Buffer make_colors(gpu::Device& device, std::span<const float> values) {
+    std::vector<glm::vec4> packed(values.size() / 3, glm::vec4(UNSET_GREY, UNSET_GREY, UNSET_GREY, 0.0f));
+    for (std::size_t i = 0; i < packed.size(); ++i)
+        if (!std::isnan(values[3 * i]))
+            packed[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2], 1.0f};
+    return gpu::make_buffer(device, packed, "photon colors");
 }
 
 std::vector<float> read_positions(const PhotonMap& photons) {

@@ -21,8 +21,25 @@ struct MapColumns {
     std::span<const std::int32_t> object; // -1: none
 };
 
+// Plain columns of paths; those that are empty but starts and vertices are filled with nothing (0, object -1).
+struct PathArrays {
+    std::span<const std::int64_t> offsets;
+    std::span<const float> vertices; // world, metres
+    std::span<const float> normals;
+    std::span<const std::uint8_t> interactions;
+    std::span<const std::int32_t> objects; // -1: none
+    std::span<const float> scatter;
+};
+
 // Packs the columns and uploads them. The map is kept relative to its own center when that lies far away.
 PhotonMap make_map(gpu::Device& device, const MapColumns& columns);
+
+// The paths of that map's photons. Throws Error when they have more vertices than 32 bits count.
+PathColumns make_paths(gpu::Device& device, const PathArrays& arrays, const std::array<double, 3>& origin);
+
+// False colors, 3 floats a photon; those of NaN are set to UNSET_GREY with w 0.
+constexpr float UNSET_GREY = 0.5f;
+gpu::Buffer make_colors(gpu::Device& device, std::span<const float> values);
 
 // World positions: 3 floats a photon.
 std::vector<float> read_positions(const PhotonMap& photons);

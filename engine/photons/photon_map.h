@@ -40,6 +40,7 @@ struct PhotonMap {
     gpu::Buffer power_object;         // rgb flux in W, w bits: object
     std::optional<PathColumns> paths; // only when asked for
     std::optional<ParameterColumns> parameters;
+    std::optional<gpu::Buffer> colors; // rgb as a script encoded them, grey where it did not; w 1: set
 };
 
 } // namespace photonloupe

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "script/diagnostics.h"
@@ -35,8 +36,11 @@ enum class AccumulatorUse : std::uint8_t { unused, local, uniform, reduction, ca
 // One neighbour query of a pass; its rows are gathered before the pass runs.
 struct NeighborQuery {
     enum class Space : std::uint8_t { world, parameter, constrained };
-    const Expression* call = nullptr; // the builtin call; its k and β are uniform
+    const Expression* call = nullptr; // the builtin call
     Space space = Space::world;
+    // k and β in terms of uniform names alone: functions' parameters are replaced by what they are given, so that the
+    // interpreter evaluates them before the pass. Absent: the default k; no β.
+    std::optional<Expression> count, beta;
     bool is_at_loop_photon = false;   // then chunks suffice; else rows of all photons are needed
 };
 
@@ -52,6 +56,10 @@ struct PhotonLoop {
     AccumulatorUse decomposition = AccumulatorUse::unused;
     std::vector<NeighborQuery> queries;
     std::uint32_t columns = 0;         // read; Columns
+    // Functions' parameters that are never assigned, with what they are given: they count as that.
+    std::map<std::uint32_t, const Expression*> given;
+    // Variables that may be read while unset, in the body; reading them there is checked.
+    std::set<std::uint32_t> unset_reads;
     bool sets_parameters = false, sets_colors = false, reads_own_parameters = false, prints = false;
     bool needs_fuel = false;           // holds a loop that is not bounded
     bool has_reductions() const;
@@ -61,6 +69,14 @@ struct Plan {
     std::vector<PhotonLoop> loops; // in source order, each once
     const PhotonLoop* find(const Statement& statement) const;
 };
+
+constexpr std::int32_t DEFAULT_NEIGHBORS = 50;
+
+// The expression, or what a never assigned parameter was given for it; conversions to float are looked through.
+const Expression& resolve_given(const PhotonLoop& loop, const Expression& expression);
+bool is_loop_photon(const PhotonLoop& loop, const Expression& expression);
+// A number known when the script is compiled.
+std::optional<double> find_constant(const Program& program, const PhotonLoop& loop, const Expression& expression);
 
 // Errors of the parallel rules (parameters set and queried in one loop …) go to `diagnostics`.
 Plan plan_photon_loops(const Program& program, Diagnostics& diagnostics);

@@ -23,6 +23,18 @@ union Number {
     std::int32_t integer;
 };
 
+inline Number make_real(float value) {
+    Number number;
+    number.real = value;
+    return number;
+}
+
+inline Number make_integer(std::int32_t value) {
+    Number number;
+    number.integer = value;
+    return number;
+}
+
 // min and max as the language has them: any NaN gives NaN, -0 < +0.
 float minimum_of(float a, float b);
 float maximum_of(float a, float b);
@@ -48,7 +60,8 @@ struct Moments {
 void push_point(Moments& moments, std::span<const float> point, std::uint32_t photon);
 Moments merge_moments(const Moments& a, const Moments& b);
 
-// Largest eigenvalue first; divided by the number of points. False: fewer than two points, all equal, or not finite.
+// Largest eigenvalue first; divided by the number of points. False: fewer than two points, all equal, or not finite;
+// there is no decomposition then.
 struct Decomposition {
     std::int32_t dimensions = 0; // 0: none yet
     float eigenvalues[3] = {};

@@ -32,6 +32,7 @@ from photonloupe.photons import PhotonMap
 from photonloupe.relaxing import Relaxation
 from photonloupe.rendering import render
 from photonloupe.scene import Scene, load_scene
+from photonloupe.scripting import Diagnostic, ExposedVariable, Histogram, Script, ScriptRun, compile_script
 from photonloupe.tracing import trace_photons
 from photonloupe.trajectory import find_primal_trajectory
 
@@ -42,7 +43,10 @@ __all__ = [
     "Device",
     "DeviceError",
     "DeviceMemoryError",
+    "Diagnostic",
+    "ExposedVariable",
     "FileFormatError",
+    "Histogram",
     "Image",
     "ImageDifference",
     "Isotropy",
@@ -52,9 +56,12 @@ __all__ = [
     "Relaxation",
     "Scene",
     "SceneError",
+    "Script",
     "ScriptError",
+    "ScriptRun",
     "__version__",
     "compare_images",
+    "compile_script",
     "devices",
     "find_primal_trajectory",
     "load_image",

@@ -137,6 +137,12 @@ def find_neighbors(device: Device, photons: PhotonMap, points: Annotated[NDArray
 def set_parameters(device: Device, photons: PhotonMap, values: Annotated[NDArray[numpy.float32], dict(shape=(None, None), order='C', writable=False)], periods: Sequence[float]) -> None:
     """Replace a map's parameters (n, m); a period of 0: it does not wrap."""
 
+def set_paths(device: Device, photons: PhotonMap, columns: dict) -> None:
+    """Give a map the checked path columns of its photons."""
+
+def set_colors(device: Device, photons: PhotonMap, values: Annotated[NDArray[numpy.float32], dict(shape=(None, 3), order='C', writable=False)]) -> None:
+    """Replace a map's false colors (n, 3); NaN: none, shown in grey."""
+
 def trace_photons(device: Device, scene: Scene, settings: dict, progress: object | None = None) -> PhotonMap:
     """
     Trace photons; settings: count, emitted, seed, emission, store, max_bounces, paths.

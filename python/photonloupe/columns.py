@@ -57,6 +57,7 @@ PATH_OFFSETS = Column("path_offsets", "i8")
 # What a script, a user or relaxation adds to the photons.
 STATE_COLUMNS = (
     Column("parameters", "f4", any_width=True, may_be_nan=True),
+    Column("colors", "f4", 3, may_be_nan=True),
     Column("constraint_basis", "f4", 3, depth=2),
     Column("constraint_weights", "f4", 2, low=0.0, high=1.0),
     Column("gradient", "f4", 3),

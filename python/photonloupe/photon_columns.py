@@ -157,6 +157,11 @@ class PhotonColumns:
         return np.all(~np.isnan(self.parameters), axis=1)
 
     @property
+    def colors(self) -> Float3:
+        """False colors that a script encoded, (n, 3), linear; NaN where it gave none (shown in grey)."""
+        return self._read_state("colors", "run_script() with setPhotonColourEncoding")
+
+    @property
     def constraint_basis(self) -> NDArray[np.float32]:
         """Unit tangent vectors along and across the structure, u_b and v_b, (n, 2, 3)."""
         return self._read_state("constraint_basis", "constrain() or relax()")

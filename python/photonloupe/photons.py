@@ -5,23 +5,20 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from photonloupe import _engine, exporting, queries, storage
+from photonloupe import _engine, exporting, storage
 from photonloupe.checks import check_count, check_rows
 from photonloupe.columns import PATH_NAMES, PHOTON_COLUMNS, STATE_COLUMNS, Columns, check_columns
 from photonloupe.device import Device, open_device
 from photonloupe.errors import ArgumentError, PhotonLoupeError
-from photonloupe.nearest import find_neighbors
 from photonloupe.parameters import Parameter, describe_parameters
 from photonloupe.paths import find_traced_rows, gather_paths, match_signature, read_path_columns, trace_paths
-from photonloupe.photon_columns import Float3, PhotonColumns
-from photonloupe.progress import ProgressLike
+from photonloupe.photon_stages import PhotonStages
 from photonloupe.provenance import describe_origin, reload_scene
-from photonloupe.relaxing import RelaxKeywords, relax_photons
 from photonloupe.scene import Scene
 
 if TYPE_CHECKING:
@@ -32,11 +29,12 @@ if TYPE_CHECKING:
 MAX_EMITTED = 2**63 - 1
 
 
-class PhotonMap(PhotonColumns):
+class PhotonMap(PhotonStages):
     """Photons and what is known of them, as columns.
 
-    Made by `trace_photons`, `load_photons` or `from_arrays`; never changed afterwards. Row i of every column
-    belongs to photon i. Path columns are recorded the first time they are read, by tracing the same photons again.
+    Made by `trace_photons`, `load_photons` or `from_arrays`; afterwards only `run_script` and `set_parameters` change
+    it. Row i of every column belongs to photon i. Path columns are recorded the first time they are read, by tracing
+    the same photons again.
 
     Examples
     --------
@@ -72,6 +70,7 @@ class PhotonMap(PhotonColumns):
         self._native = native
         self._parameters = tuple(parameters)
         self._relaxation = dict(relaxation or {})
+        self._has_uploaded_paths = False
 
     @classmethod
     def from_arrays(
@@ -225,186 +224,6 @@ class PhotonMap(PhotonColumns):
             relaxation=self._relaxation,
         )
 
-    def neighbors(
-        self,
-        points: ArrayLike,
-        k: int,
-        *,
-        space: str = "world",
-        beta: float | str = 3.0,
-        center: int | None = None,
-        ranges: Mapping[int | str, tuple[float, float]] | None = None,
-        progress: ProgressLike = None,
-    ) -> tuple[NDArray[np.int32], NDArray[np.float32]]:
-        """Find the k nearest photons, nearest first, ties by id.
-
-        Parameters
-        ----------
-        points
-            Points (n, 3) in m, or ids (n,) of photons; a photon is not its own neighbor. In parameter space
-            (n, m) values, or ids.
-        k
-            How many, 1 to 1000.
-        space
-            ``"world"``: all photons, by distance in m. ``"parameter"``: photons with parameters, by distance in
-            parameter space; to an id only those of its emitter. ``"constrained"``: those of the same layer, by
-            distance in m: of the same emitter and within β r_q in parameter space, r_q the distance to the k-th
-            neighbor there (METHODS section 4). Photons without parameters are a layer of their own.
-        beta
-            β of the constrained space, or ``"auto"`` for `optimal_beta`.
-        center
-            Constrained space around points: the layer is that of this photon.
-        ranges
-            Instead: the layer is all photons whose parameters lie within, ``{name or dimension: (low, high)}``,
-            dimensions counted from 3; a periodic parameter may run from high over the seam to low.
-        progress
-            True for a bar, or a callback ``(stage, fraction)`` that returns False to stop.
-
-        Returns
-        -------
-        ids : (n, k) int32
-            Padded with -1 where there are fewer photons.
-        distances : (n, k) float32
-            In m, or in parameter space, padded with inf.
-
-        Raises
-        ------
-        ArgumentError
-            If a point is not finite, an id is not a photon, k is out of range, or the space lacks what it needs.
-
-        Examples
-        --------
-        >>> import numpy as np, photonloupe as pl
-        >>> line = np.array([[0.0, 0, 0], [1, 0, 0], [3, 0, 0]])
-        >>> photons = pl.PhotonMap.from_arrays(positions=line, normals=[[0, 1, 0]] * 3, power=np.ones((3, 3)))
-        >>> photons.neighbors([1], 3)[0].tolist()
-        [[0, 2, -1]]
-        """
-        return find_neighbors(self, points, k, space=space, beta=beta, center=center, ranges=ranges, progress=progress)
-
-    def irradiance(
-        self,
-        points: ArrayLike,
-        normals: ArrayLike,
-        *,
-        k: int | None = None,
-        kernel: str = "epanechnikov",
-        progress: ProgressLike = None,
-    ) -> Float3:
-        """Estimate the irradiance from the k nearest photons of the same surface (METHODS section 2).
-
-        Parameters
-        ----------
-        points, normals
-            (n, 3) each: m, directions; one normal (3,) serves all points.
-        k
-            How many photons, 1 to 1000; by default what suits the map's emission.
-        kernel
-            ``"epanechnikov"``, ``"disc"``, ``"cone"`` or ``"gaussian"``.
-        progress
-            True for a bar, or a callback ``(stage, fraction)`` that returns False to stop.
-
-        Returns
-        -------
-        (n, 3) float32
-            W/m² per channel; 0 where no photon is accepted.
-
-        Raises
-        ------
-        ArgumentError
-            If a point or normal is not finite, a normal is zero, or k or kernel is not offered.
-        """
-        native = self.upload()
-        k = queries.choose_k(self._settings) if k is None else k
-        device = open_device(self._device)
-        return queries.estimate_irradiance(device, native, points, normals, k=k, kernel=kernel, progress=progress)
-
-    def constrain(self, *, progress: ProgressLike = None, **settings: Unpack[RelaxKeywords]) -> PhotonMap:
-        """Measure which way each photon may move, without moving any (METHODS section 5).
-
-        Parameters
-        ----------
-        **settings
-            ``constraint``, ``descriptor``, ``beta``, ``constraint_neighbors``, ``thresholds`` as in `relax`.
-        progress
-            True for a bar, or a callback ``(stage, fraction)`` that returns False to stop.
-
-        Returns
-        -------
-        PhotonMap
-            The same photons with `constraint_basis`, `constraint_weights`, `gradient`, `one_sidedness`.
-        """
-        return relax_photons(self, progress, **{**settings, "steps": 0})
-
-    def relax(
-        self,
-        steps: int | None = None,
-        neighbors: int | None = None,
-        *,
-        progress: ProgressLike = None,
-        **settings: Unpack[RelaxKeywords],
-    ) -> PhotonMap:
-        """Move the photons apart until the noise is gone, as far as their constraints allow ([SJ09], METHODS 3 to 5).
-
-        With nothing said, the settings with the least error of all measured (docs/relaxation.md).
-
-        Parameters
-        ----------
-        steps
-            S of eq. 2. It trades noise for bias: photons keep flattening gradients, they never settle.
-        neighbors
-            K of eq. 1, 1 to 998.
-        constraint
-            Which photons say where one may go: ``"world"`` all around it, ``"parameter"`` those of its layer (see
-            `neighbors`), ``"auto"`` the latter where the map has parameters.
-        descriptor
-            ``"pca"``, ``"tensor"``, ``"split"``, ``"gradient"`` (one-sidedness alone), or ``"none"``.
-        beta
-            Reach of layers, or ``"auto"`` for `optimal_beta`.
-        repel
-            Whether all photons repel, ``"world"``, or those of the same layer, ``"parameter"``.
-        over_relaxation
-            λmax and λmin of eq. 2, or one number for both.
-        limit
-            ρ of the migration limiter, eq. 5; None: no limit.
-        constraint_neighbors
-            k of the descriptor, 12 to 998; default 50, split 150.
-        thresholds
-            Value of the descriptor that leaves a photon free, and the one that fixes it across.
-        diffuse_flux
-            Let fluxes even out too; the total is kept.
-        search
-            ``"exact"`` radii, or ``"carried"``: those of the step before, corrected by the number of photons within
-            (faster; its error is in docs/relaxation.md).
-        surface
-            ``"auto"``: photons return to the surface they lie on; ``"tangent"``: they move in their tangent planes.
-        tree
-            What neighbors of a layer are sought in: ``"layered"``, a tree over positions and parameters, or
-            ``"position"``, which needs no building when parameters change; ``"auto"`` takes the former for
-            ``repel="parameter"``. The results are the same but for the last bits.
-        progress
-            True for a bar, or a callback ``(stage, fraction)`` that returns False to stop.
-
-        Returns
-        -------
-        PhotonMap
-            A new map with `drift`, `pressure`, the constraint, and the report in `relaxation`.
-
-        Raises
-        ------
-        ArgumentError
-            If a setting is out of its range, or parameters are asked for that the map does not have.
-
-        Examples
-        --------
-        >>> import photonloupe as pl
-        >>> photons = pl.trace_photons(pl.load_scene("scenes/ring/ring.gltf"), count=10_000, seed=1)
-        >>> relaxed = photons.relax(steps=2)
-        >>> len(relaxed) == len(photons)
-        True
-        """
-        return relax_photons(self, progress, **{**settings, "steps": steps, "neighbors": neighbors})
-
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the map as a Zarr v3 folder; an older map there stays until the new one is whole.
 
@@ -428,6 +247,9 @@ class PhotonMap(PhotonColumns):
         place = f" in {self._scene.path.name}" if self._scene else ""
         return f"<PhotonMap{place}: {len(self):,} photons of {self.emitted:,} emitted, flux ({flux}) W>"
 
+    def _as_map(self) -> PhotonMap:
+        return self
+
     def _describe(self) -> dict[str, Any]:
         described: dict[str, Any] = {
             "emitted": self._emitted,
@@ -450,7 +272,43 @@ class PhotonMap(PhotonColumns):
             device = open_device(self._device)._native
             self._native = _engine.photons_from_columns(device, columns, store)
             self._upload_parameters()
+            if "colors" in self._columns:
+                _engine.set_colors(device, self._native, np.ascontiguousarray(self._columns["colors"]))
         return self._native
+
+    def upload_columns(self, names: Sequence[str]) -> _engine.PhotonMap:
+        """Return the map on the device with the path columns a script reads, recorded now if need be."""
+        native = self.upload()
+        wanted = [name for name in PATH_NAMES if name in names]
+        if not wanted or self._has_uploaded_paths:
+            return native
+        self._record_paths()
+        missing = [name for name in wanted if name not in self._columns]
+        if missing:
+            raise PhotonLoupeError(
+                f"the script reads {missing[0]}, which this map does not have; give it to from_arrays"
+            )
+        paths = {name: np.ascontiguousarray(self._columns[name]) for name in PATH_NAMES if name in self._columns}
+        _engine.set_paths(open_device(self._device)._native, native, paths)
+        self._has_uploaded_paths = True
+        return native
+
+    def take_script_columns(
+        self,
+        values: NDArray[np.float32],
+        parameters: Sequence[Parameter],
+        colors: NDArray[np.float32] | None,
+        script: Mapping[str, Any],
+    ) -> None:
+        """Take what a script run left on the device as the columns of this map."""
+        self._columns.pop("parameters", None)
+        self._columns.pop("colors", None)
+        if parameters:
+            self._add_columns({"parameters": values})
+        if colors is not None:
+            self._add_columns({"colors": colors})
+        self._parameters = tuple(parameters)
+        self._provenance["script"] = dict(script)
 
     def _upload_parameters(self) -> None:
         if "parameters" in self._columns and self._native is not None:
@@ -465,7 +323,7 @@ class PhotonMap(PhotonColumns):
     def replace_positions(self, native: _engine.PhotonMap, state: Columns, relaxation: Mapping[str, Any]) -> PhotonMap:
         """Return this map with the photons where a relaxation put them; paths keep their traced end points."""
         columns: Columns = {column.name: np.asarray(getattr(native, column.name)) for column in PHOTON_COLUMNS}
-        kept = ("parameters", *(name for name in PATH_NAMES))
+        kept = ("parameters", "colors", *(name for name in PATH_NAMES))
         columns.update({name: self._columns[name] for name in kept if name in self._columns})
         columns["traced_positions"] = self._columns.get("traced_positions", self._columns["positions"])
         columns.update(state)

@@ -16,7 +16,7 @@ from photonloupe.provenance import describe_origin
 from photonloupe.scene import Scene
 from photonloupe.tracing import MAX_SEED
 
-MODES = ("composite", "caustic", "direct", "photons")
+MODES = ("composite", "caustic", "direct", "photons", "false-color")
 MAX_SIDE = 16_384
 MAX_SAMPLES = 65_536
 
@@ -52,7 +52,8 @@ def render(
         Per pixel, box filter.
     mode
         ``"composite"`` emission + direct light + map, ``"caustic"`` the map alone, ``"direct"`` direct light alone,
-        ``"photons"`` the stored photons as dots.
+        ``"photons"`` the stored photons as dots, ``"false-color"`` the mean color a script gave the photons around
+        times the luminance of their irradiance.
     k, kernel
         As in `PhotonMap.irradiance`.
     seed

@@ -3,6 +3,7 @@
 // Inputs: hit_weight, direct_irradiance, map_irradiance, eye_emission. Output: film (rgb radiance, W/(m² sr)).
 #include "shared/prelude.glsl"
 #include "shared/render.h"
+#include "estimate/luminance.glsl"
 #pragma binding readonly vec4 hit_weight
 #pragma binding readonly vec4 direct_irradiance
 #pragma binding readonly vec4 map_irradiance
@@ -21,6 +22,7 @@ void main() {
         for (uint slot = 0u; slot < settings.slot_count; ++slot) {
             uint at = slot * settings.sample_count + index;
             vec3 weight = hit_weight[at].rgb;
+            if (settings.uses_colors != 0u) weight = vec3(find_luminance(weight));
             if (settings.uses_direct != 0u) sum += weight * direct_irradiance[at].rgb;
             if (settings.uses_map != 0u) sum += weight * map_irradiance[at].rgb;
         }

@@ -24,4 +24,4 @@ float weigh_photon(float s) {
 float find_spacing(vec3 p) { return max(max(abs(p.x), max(abs(p.y), abs(p.z))) * FLOAT_EPSILON, SMALLEST_RADIUS); }
 
 // Irradiance from the weighted flux within r. In two steps: π r² of a tiny radius would underflow.
-vec3 spread_flux(vec3 flux, float r) { return flux / r / (PI * r); }
+vec4 spread_flux(vec4 flux, float r) { return flux / r / (PI * r); }

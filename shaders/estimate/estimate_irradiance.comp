@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Irradiance in W/m² from the k nearest photons on the same surface (METHODS §2). A photon counts within radius r when
+// Irradiance in W/m² from the k nearest photons on the same surface (METHODS §2); w: what photons that each carry
+// 1 W would give. A photon counts within radius r when
 // n_i·n > 0.7, d_i ≤ r and |n·(x_i - x)| ≤ flatness·r: its measure is the smallest such r, squared.
 // Inputs: the tree, tree_normals, power_object (by photon id), query_points, query_normals (a zero normal: no query),
 // query_order. Outputs: irradiance, unanswered (1: the turns did not suffice).
@@ -64,24 +65,24 @@ float find_radius2(uint wanted) {
     return is_short && KERNEL != 1 ? last * BEYOND_FARTHEST * BEYOND_FARTHEST : last;
 }
 
-vec3 sum_flux(uint used, float r2) {
-    vec3 sum = vec3(0.0);
+vec4 sum_flux(uint used, float r2) {
+    vec4 sum = vec4(0.0);
     for (uint rank = 0u; rank < settings.k; ++rank) {
         bool valid = rank < used;
         Candidate photon = load_candidate(find_photon(valid ? rank : 0u));
         vec3 d = photon.point - my_query.point;
-        vec3 power = power_object[photon.id].rgb;
-        sum += valid ? power * weigh_photon(min(dot(d, d) / r2, 1.0)) : vec3(0.0);
+        vec4 power = vec4(power_object[photon.id].rgb, 1.0);
+        sum += valid ? power * weigh_photon(min(dot(d, d) / r2, 1.0)) : vec4(0.0);
     }
     return sum;
 }
 
-vec3 estimate(uint wanted) {
+vec4 estimate(uint wanted) {
     uint used = min(my_search.count, settings.k);
     float r = max(sqrt(find_radius2(wanted)), find_spacing(my_query.point));
-    vec3 flux = sum_flux(used, r * r);
+    vec4 flux = sum_flux(used, r * r);
     if (KERNEL == 1) flux *= float(max(used, 1u) - 1u) / float(max(used, 1u)); // disc: (k - 1)/k is unbiased
-    return used > 0u ? spread_flux(flux, r) : vec3(0.0);
+    return used > 0u ? spread_flux(flux, r) : vec4(0.0);
 }
 
 void main() {
@@ -95,9 +96,9 @@ void main() {
         bool has_query = turn < settings.count && my_query.normal != vec3(0.0);
         find_smallest(has_query, settings.photon_count, settings.leaf_level, wanted, guess2);
         turns += settings.k + 1u;
-        vec3 found = estimate(wanted);
+        vec4 found = estimate(wanted);
         if (turn < settings.count) {
-            irradiance[query] = vec4(has_query ? found : vec3(0.0), 0.0);
+            irradiance[query] = has_query ? found : vec4(0.0);
             unanswered[query] = uint(has_query && !has_turns_left());
         }
         float reached = my_search.count >= wanted ? find_radius2(wanted) : 0.0;

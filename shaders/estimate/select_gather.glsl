@@ -18,7 +18,8 @@ bool measure_photon(uint position, vec4 photon, out float measure) {
     return measure < INFINITY;
 }
 
-vec3 estimate_irradiance(uint photon_count, uint leaf_level, uint k) {
+// rgb; w: the same for photons that carry 1.
+vec4 estimate_irradiance(uint photon_count, uint leaf_level, uint k) {
     float bound;
 #if KERNEL == 1 // disc: r is the distance to the k-th itself, and (k - 1)/(π r²) is unbiased
     uint wanted = k;
@@ -26,7 +27,7 @@ vec3 estimate_irradiance(uint photon_count, uint leaf_level, uint k) {
     uint wanted = k + 1u;
 #endif
     uint count = find_smallest(gather_point, photon_count, leaf_level, wanted, bound);
-    if (count == 0u) return vec3(0.0);
+    if (count == 0u) return vec4(0.0);
     uint used = count;
     float r2;
     if (count < wanted || KERNEL == 1) {
@@ -41,13 +42,14 @@ vec3 estimate_irradiance(uint photon_count, uint leaf_level, uint k) {
     }
     float r = max(sqrt(r2), find_spacing(gather_point));
     r2 = r * r;
-    vec3 sum = vec3(0.0);
+    vec4 sum = vec4(0.0);
     for (uint i = LANE; i < used; i += WIDTH) {
         vec4 photon = tree_positions_at(list[i].y);
         vec3 d = photon.xyz - gather_point;
-        sum += power_object[floatBitsToUint(photon.w)].rgb * weigh_photon(min(dot(d, d) / r2, 1.0));
+        vec4 flux = vec4(power_object[floatBitsToUint(photon.w)].rgb, 1.0);
+        sum += flux * weigh_photon(min(dot(d, d) / r2, 1.0));
     }
-    vec3 total = vec3(subgroupAdd(sum.x), subgroupAdd(sum.y), subgroupAdd(sum.z));
+    vec4 total = vec4(subgroupAdd(sum.x), subgroupAdd(sum.y), subgroupAdd(sum.z), subgroupAdd(sum.w));
 #if KERNEL == 1
     total *= float(count - 1u) / float(count);
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Irradiance in W/m² at arbitrary points. Inputs: the tree, query_points, query_normals, query_order. Outputs: irradiance, unanswered
+// Irradiance in W/m² at arbitrary points; w: what photons that each carry 1 W would give. Inputs: the tree, query_points, query_normals, query_order. Outputs: irradiance, unanswered
 // (1: the turns did not suffice).
 // Define KERNEL (see shared/photons.h).
 #include "shared/prelude.glsl"
@@ -20,9 +20,9 @@ void main() {
         uint query = query_order[settings.first + at];
         gather_point = query_points[query].xyz;
         gather_normal = query_normals[query].xyz;
-        vec3 estimate = estimate_irradiance(settings.photon_count, settings.leaf_level, settings.k);
+        vec4 estimate = estimate_irradiance(settings.photon_count, settings.leaf_level, settings.k);
         if (LANE == 0u) {
-            irradiance[query] = vec4(estimate, 0.0);
+            irradiance[query] = estimate;
             unanswered[query] = uint(!has_turns_left());
         }
     }

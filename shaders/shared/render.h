@@ -37,9 +37,9 @@ struct FilmSettings {
     uint uses_map;
     uint uses_direct;
     uint uses_emission;
+    uint uses_colors;   // false color: of a surface's color only its luminance counts
     uint pad0;
     uint pad1;
-    uint pad2;
 };
 
 struct PlotSettings {

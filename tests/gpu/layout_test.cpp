@@ -32,7 +32,7 @@ const std::map<std::string, HostStruct> HOST_STRUCTS{
 };
 
 std::vector<std::uint32_t> compile(const KernelVariant& variant, std::uint64_t by_address = 0) {
-    return gpu::compile_glsl(gpu::declare_bindings(gpu::expand_source(variant.path), variant.defines, by_address),
+    return gpu::compile_glsl(gpu::declare_bindings(gpu::expand_source({.path = variant.path}), variant.defines, by_address),
                              variant.path);
 }
 
@@ -71,7 +71,7 @@ TEST(Layout, every_kernel_compiles_in_every_variant) {
 
 TEST(Layout, every_kernel_compiles_with_all_buffers_by_address) {
     for (const KernelVariant& variant : list_variants()) {
-        const std::size_t bindings = gpu::expand_source(variant.path).bindings.size();
+        const std::size_t bindings = gpu::expand_source({.path = variant.path}).bindings.size();
         EXPECT_NO_THROW(compile(variant, (1ull << bindings) - 1)) << describe(variant);
     }
 }

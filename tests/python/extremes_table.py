@@ -61,6 +61,7 @@ CASES: dict[str, tuple[str, str]] = {
     "id-limit": ("photon id 2³¹", "refused by row"),
     "parameters-not-finite": ("NaN and ±inf in parameters", "NaN: the photon has none; inf: refused by row and column"),
     "parameters-limit": ("0 and 14 parameters", "refused: 1 to 13"),
+    "parameters-range": ("parameters of 10¹⁹, all within 10⁻¹³", "queries and layers refuse and say how to scale"),
     "parameters-unset": (
         "parameters of no photon set",
         "no neighbors in parameter space; layers are the emitters, relaxed as the twin's; no β",

@@ -33,7 +33,7 @@ class Cloud:
     @property
     def is_set(self) -> Mask:
         """Photons of which every parameter is set, (n,)."""
-        return ~np.isnan(self.values).any(axis=1)
+        return np.asarray(~np.isnan(self.values).any(axis=1))
 
 
 def make_cloud(values: ArrayLike, *, periodic: int = 0, seed: int = 0, emitters: int = 2) -> Cloud:
@@ -71,7 +71,8 @@ def square_parameters(cloud: Cloud, value: Floats) -> Floats:
 def square_world(cloud: Cloud, point: Floats) -> Floats:
     """Squared distance of every photon from a place in the world, (n,)."""
     away = cloud.positions - point
-    return away[:, 0] * away[:, 0] + away[:, 1] * away[:, 1] + away[:, 2] * away[:, 2]
+    x, y, z = away.T
+    return np.asarray(x * x + y * y + z * z, dtype=np.float32)
 
 
 def take_nearest(measure: Floats, k: int) -> Found:
@@ -80,11 +81,13 @@ def take_nearest(measure: Floats, k: int) -> Found:
     order = order[np.isfinite(measure[order])]
     missing = k - len(order)
     ids = np.pad(order, (0, missing), constant_values=-1)
-    return ids, np.pad(np.sqrt(measure[order]), (0, missing), constant_values=np.inf)
+    distances = np.full(k, np.inf, dtype=np.float32)
+    distances[: len(order)] = np.sqrt(measure[order])
+    return ids, distances
 
 
 def keep_only(measure: Floats, allowed: Mask) -> Floats:
-    return np.where(allowed, measure, np.float32(np.inf))
+    return np.where(allowed, measure, np.inf).astype(np.float32)
 
 
 def find_parameter_neighbors(cloud: Cloud, i: int, k: int) -> Found:

@@ -19,6 +19,7 @@ Doubles = NDArray[np.float64]
 COUNT = 300
 REPULSION = (2.0, 1.2)
 TOLERANCE = 2e-5
+ALIKE = 0.999  # share of ranks that rounding of scaled values leaves as they are
 
 
 def make_layered(values: Doubles, seed: int = 1, *, emitter: NDArray[np.int64] | None = None) -> Pair:
@@ -47,6 +48,24 @@ def test_parameters_that_are_not_numbers_unset_the_photon() -> None:
     values[7, 1] = np.nan
     photons = make_layered(values).program
     assert np.flatnonzero(~photons.parameters_set).tolist() == [7]
+
+
+def test_parameters_whose_distances_are_no_floats_are_refused() -> None:
+    for factor, message in ((1e19, "reaches .*scale the parameters down"), (1e-13, "within .*scale the parameters up")):
+        photons = make_layered(make_random() * factor).program
+        with pytest.raises(pl.PhotonLoupeError, match=message):
+            photons.neighbors([0], 5, space="parameter")
+        with pytest.raises(pl.PhotonLoupeError, match=message):
+            photons.relax(1, 6, constraint="parameter")
+    add_row("parameters-range", "4 refusals")
+
+
+@pytest.mark.parametrize("factor", [1e-11, 1e17])
+def test_parameters_just_within_the_range_of_distances_rank_alike(factor: float) -> None:
+    plain, scaled = (make_layered(make_random() * scale).program for scale in (1.0, factor))
+    found, _ = scaled.neighbors(np.arange(COUNT), 9, space="parameter")
+    expected, _ = plain.neighbors(np.arange(COUNT), 9, space="parameter")
+    assert np.mean(found == expected) > ALIKE
 
 
 def test_infinite_parameters_are_refused_by_row_and_column() -> None:
@@ -93,7 +112,7 @@ def test_parameter_of_three_values_makes_layers_of_them() -> None:
     pair = make_layered(values[:, None])
     asked = np.arange(0, 3_000, 30)
     ids = pair.program.neighbors(np.arange(3_000), 50, space="parameter")[0][asked]
-    np.testing.assert_array_equal(ids, find_parameter_neighbors(pair.twin, list(asked), 50)[0])
+    np.testing.assert_array_equal(ids, find_parameter_neighbors(pair.twin, asked.tolist(), 50)[0])
     found = pair.program.constrain(constraint="parameter", descriptor="pca", beta=3.0).constraint_weights
     # At every value its own photons only: as if there were no others.
     error = 0.0
@@ -134,14 +153,15 @@ def test_beta_from_nothing_to_everything_relaxes_as_the_twins() -> None:
 
 def test_fewest_and_most_neighbors_in_layers_are_the_twins() -> None:
     pair = make_layered(make_random())
+    every, asked = np.arange(COUNT), range(0, COUNT, 10)
     error = 0.0
     for k in (1, 998):
-        ids, distances = pair.program.neighbors(np.arange(COUNT), k, space="parameter")
-        expected = find_parameter_neighbors(pair.twin, range(COUNT), k)[1]
-        assert ((ids == -1) == np.isinf(expected)).all()
-        error = max(error, measure_difference(distances, expected))
-        distances = pair.program.neighbors(np.arange(COUNT), k, space="constrained")[1]
-        error = max(error, measure_difference(distances, find_constrained_neighbors(pair.twin, range(COUNT), k)[1]))
+        ids, distances = pair.program.neighbors(every, k, space="parameter")
+        expected = find_parameter_neighbors(pair.twin, asked, k)[1]
+        assert ((ids[asked] == -1) == np.isinf(expected)).all()
+        error = max(error, measure_difference(distances[asked], expected))
+        distances = pair.program.neighbors(every, k, space="constrained")[1]
+        error = max(error, measure_difference(distances[asked], find_constrained_neighbors(pair.twin, asked, k)[1]))
     add_row("layers-k", f"error {show(error)}")
     assert error < TOLERANCE
 

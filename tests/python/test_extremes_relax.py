@@ -67,9 +67,11 @@ def test_neighbors_out_of_range_are_refused() -> None:
 
 
 def test_photons_at_one_point_are_free_and_part() -> None:
+    # So many that a workgroup has not turns enough for its photons.
     photons = make_pair(np.tile((0.5, 0.0, 0.5), (10_000, 1))).program
+    few = photons.select(np.arange(1_000))
     for descriptor in DESCRIPTORS:
-        found = photons.constrain(descriptor=descriptor)
+        found = (photons if descriptor == "tensor" else few).constrain(descriptor=descriptor)
         check_finite(found)
         assert not found.constraint_weights.any(), descriptor
         assert not found.gradient.any(), descriptor
@@ -88,7 +90,7 @@ def test_photons_at_two_points_stay_near() -> None:
         check_finite(moved)
         largest = max(largest, float(np.linalg.norm(moved.drift, axis=1).max()) / 0.2)
     add_row("relax-two-points", show(largest))
-    assert largest < 1.0
+    assert largest < 1e-3
 
 
 def test_photons_on_one_line_are_held_across_and_stay_on_it() -> None:

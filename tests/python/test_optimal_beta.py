@@ -44,7 +44,7 @@ def test_beta_is_the_twins(shape: str) -> None:
 
 
 def test_isotropy_over_many_parameters_is_the_twins() -> None:
-    pair = make_layers("flat", 1_500, dimensions=13)
+    pair = make_layers("flat", 800, dimensions=13)
     expected = optimal_beta(pair.twin, 50).isotropy
     np.testing.assert_allclose(pl.optimal_beta(pair.program, 50).isotropy.values, expected, atol=5e-4, equal_nan=True)
 

@@ -37,7 +37,7 @@ import numpy as np
 import photonloupe as pl
 
 scene = pl.load_scene(sys.argv[1])
-photons = pl.trace_photons(scene, 12_000, seed=7, emission=sys.argv[2], max_bounces=1)
+photons = pl.trace_photons(scene, 8_000, seed=7, emission=sys.argv[2], max_bounces=1)
 photons.set_parameters(photons.positions[:, ::2])
 every = np.arange(0, len(photons), 10)
 layered = {"constraint": "parameter", "repel": "parameter", "beta": 3.0, "neighbors": 6}

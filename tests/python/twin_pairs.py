@@ -85,10 +85,18 @@ def scatter_sphere(count: int, seed: int) -> Places:
     return directions, directions
 
 
+def scatter_lit_sphere(count: int, seed: int) -> Places:
+    """The same with an edge: a fifth of the density below the equator."""
+    rng = np.random.default_rng(seed + 1)
+    directions, _ = scatter_sphere(4 * count, seed)
+    kept = directions[(directions[:, 1] > 0.0) | (rng.random(4 * count) < 0.2)][:count]
+    return kept, kept
+
+
 SHAPES: dict[str, Callable[[int, int], Places]] = {
     "flat": scatter_flat,
     "tilted": scatter_tilted,
-    "sphere": scatter_sphere,
+    "sphere": scatter_lit_sphere,
 }
 
 

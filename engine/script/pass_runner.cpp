@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+// A pass from start to end: buffers, batches of blocks, dispatches cut by measured time, limits.
+#include "script/pass_runner.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "script/pass_work.h"
+
+namespace photonloupe::script {
+namespace {
+
+constexpr const char* STAGE = "run script";
+// Loop turns of one lane in one dispatch: half of what the strictest device allows (shaders/shared/turns.glsl).
+constexpr std::uint32_t COMFORTABLE_TURNS = 30'000;
+// Words of lanes that one batch of blocks may have, and of neighbours' rows.
+constexpr std::uint64_t MOST_LANE_WORDS = 1ull << 24;
+constexpr std::uint64_t MOST_ROW_WORDS = 1ull << 26;
+constexpr std::uint32_t WORD_BITS = 32;
+
+template <class Words> gpu::Buffer make_words(gpu::Device& device, const Words& words, const char* purpose) {
+    return words.empty() ? gpu::Buffer(device, sizeof(std::uint32_t), purpose)
+                         : gpu::make_buffer(device, words, purpose);
+}
+
+std::uint32_t count_blocks(std::uint64_t photons) {
+    return static_cast<std::uint32_t>((photons + REDUCTION_BLOCK - 1) / REDUCTION_BLOCK);
+}
+
+LaneLayout take_layout(const Program& program, const EmittedPass& pass) {
+    LaneLayout layout;
+    for (const LaneSlots& lane : pass.lanes)
+        layout.variables.push_back({lane.variable, lane.use.role, program.variables[lane.variable].type,
+                                    lane.first_slot, lane.size, lane.use.of});
+    layout.pca_2d = pass.moments_2d_slot;
+    layout.pca_3d = pass.moments_3d_slot;
+    layout.slots = pass.slot_count;
+    return layout;
+}
+
+} // namespace
+
+PassRunner::PassRunner(gpu::Device& device, const PhotonMap& photons, const Program& program, const Plan& plan,
+                       const std::vector<EmittedPass>& passes, RunOutputs& outputs, const RunSettings& settings,
+                       FindRows find_rows, const Progress& progress)
+    : m_device(device), m_photons(photons), m_program(program), m_plan(plan), m_passes(passes), m_outputs(outputs),
+      m_settings(settings), m_find_rows(std::move(find_rows)), m_progress(progress),
+      m_columns(device, photons.count, outputs.columns), m_nothing(device, sizeof(glm::vec4), "nothing") {}
+
+bool PassRunner::run(const PhotonLoop& loop, Interpreter& interpreter, LoopReport& report) {
+    const std::size_t index = static_cast<std::size_t>(&loop - m_plan.loops.data());
+    Work work{loop, m_passes[index], interpreter, report};
+    work.layout = take_layout(m_program, work.pass);
+    m_columns.prepare();
+    fill_uniforms(work);
+    const std::uint32_t photon_words = static_cast<std::uint32_t>(m_photons.count / WORD_BITS + 1);
+    std::vector<std::uint32_t> faults;
+    for (std::size_t site = 0; site < work.pass.sites.size(); ++site)
+        faults.insert(faults.end(), {0u, NO_PHOTON});
+    work.fault_words = make_words(m_device, faults, "script faults");
+    work.print_bits = make_words(m_device, std::vector<std::uint32_t>(photon_words), "script prints");
+    work.late_bits = make_words(m_device, std::vector<std::uint32_t>(photon_words), "late photons");
+    const bool may_repeat = loop.sets_parameters && loop.reads_own_parameters;
+    if (may_repeat && !m_columns.parameters().is_empty()) {
+        work.kept_parameters = gpu::Buffer(m_device, m_columns.parameters().size_bytes(), "script parameters");
+        gpu::Commands copy(m_device, STAGE);
+        copy.copy(m_columns.parameters(), 0, work.kept_parameters, 0, m_columns.parameters().size_bytes());
+        copy.run();
+    }
+    if (!run_blocks(work))
+        return false;
+    collect(work);
+    return true;
+}
+
+// Blocks whose lanes and rows fit together.
+std::uint32_t PassRunner::choose_batch(const Work& work) const {
+    std::uint64_t blocks = count_blocks(m_photons.count);
+    if (work.pass.slot_count > 0)
+        blocks = std::min(blocks, MOST_LANE_WORDS / (std::uint64_t{work.pass.slot_count} * REDUCTION_LANES));
+    std::uint64_t row = 0;
+    for (const PassQuery& query : work.pass.queries)
+        row += query.query->is_at_loop_photon ? work.uniforms[query.first_word + 1] : 0;
+    if (row > 0)
+        blocks = std::min(blocks, MOST_ROW_WORDS / (row * REDUCTION_BLOCK));
+    return static_cast<std::uint32_t>(std::max<std::uint64_t>(blocks, 1));
+}
+
+void PassRunner::dispatch(gpu::Commands& commands, const Work& work, const shared::ScriptPass& push,
+                          std::uint32_t groups) const {
+    const auto choose = [&](const gpu::Buffer& buffer) -> const gpu::Buffer& {
+        return buffer.is_empty() ? m_nothing : buffer;
+    };
+    const auto choose_path = [&](gpu::Buffer PathColumns::*column) -> const gpu::Buffer& {
+        return m_photons.paths ? choose((*m_photons.paths).*column) : m_nothing;
+    };
+    gpu::KernelSource source{"script", REDUCTION_LANES, {}, {}, work.pass.glsl};
+    commands.dispatch(source,
+                      {{"uniform_words", work.uniform_words},
+                       {"lane_words", choose(work.lane_words)},
+                       {"fault_words", work.fault_words},
+                       {"status_words", work.status_words},
+                       {"histogram_words", choose(work.histogram_words)},
+                       {"print_bits", work.print_bits},
+                       {"late_bits", work.late_bits},
+                       {"neighbor_rows", choose(work.neighbor_rows)},
+                       {"parameter_columns", m_columns.parameters()},
+                       {"colors", m_columns.colors()},
+                       {"position_emitter", m_photons.position_emitter},
+                       {"normal_index", m_photons.normal_index},
+                       {"power_object", m_photons.power_object},
+                       {"path_starts", choose_path(&PathColumns::starts)},
+                       {"path_vertices", choose_path(&PathColumns::vertices)},
+                       {"path_normals", choose_path(&PathColumns::normals)}},
+                      push, std::uint64_t{push.block_count} * groups * REDUCTION_LANES);
+}
+
+// A first look at 64 photons that writes nothing: how many rounds of a block one dispatch can take.
+std::uint32_t PassRunner::measure_rounds(Work& work) const {
+    work.status_words = make_words(m_device, std::vector<std::uint32_t>(shared::STATUS_WORDS), "script status");
+    shared::ScriptPass push = work.push(m_photons, m_outputs, m_settings);
+    push.block_count = push.rounds = 1;
+    push.flags = shared::SCRIPT_IS_DRY;
+    gpu::Commands commands(m_device, STAGE);
+    dispatch(commands, work, push, 1);
+    commands.run();
+    const std::vector<std::uint32_t> status = work.status_words.read<std::uint32_t>(shared::STATUS_WORDS);
+    const std::uint32_t turns = std::max(status[shared::STATUS_MOST_TURNS], 1u);
+    return status[shared::STATUS_FLAGS] ? 1u : std::clamp(COMFORTABLE_TURNS / turns, 1u, shared::SCRIPT_ROUNDS);
+}
+
+bool PassRunner::must_stop(Work& work) const {
+    const std::vector<std::uint32_t> words =
+        work.fault_words.read<std::uint32_t>(shared::FAULT_STRIDE * work.pass.sites.size());
+    std::uint32_t exhausted = 0;
+    for (std::size_t site = 0; site < work.pass.sites.size(); ++site)
+        if (work.pass.sites[site].loop)
+            exhausted += words[shared::FAULT_STRIDE * site];
+    const auto spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - work.start).count();
+    if (exhausted >= m_settings.most_exhausted)
+        work.report.stopped = std::to_string(exhausted) + " photons ran out of steps; the rest were left out";
+    else if (spent > m_settings.most_seconds)
+        work.report.stopped = "it took longer than " + std::to_string(std::lround(m_settings.most_seconds)) +
+                              " s; the rest of the photons were left out";
+    return !work.report.stopped.empty();
+}
+
+// Dispatches a batch; sets has_late_photons where lanes ran out of loop turns.
+void PassRunner::run_batch(Work& work, std::uint32_t first_block, std::uint32_t block_count) {
+    if (work.pass.slot_count > 0) {
+        const std::vector<std::uint32_t> identity = make_identity(work.layout);
+        std::vector<std::uint32_t> words;
+        words.reserve(std::size_t{block_count} * identity.size() * REDUCTION_LANES);
+        for (std::uint32_t block = 0; block < block_count; ++block)
+            for (const std::uint32_t word : identity)
+                words.insert(words.end(), REDUCTION_LANES, word);
+        work.lane_words = make_words(m_device, words, "script reductions");
+    }
+    const bool reduces = work.pass.slot_count > 0;
+    const std::uint32_t dispatches = reduces ? (shared::SCRIPT_ROUNDS + work.rounds - 1) / work.rounds : 1;
+    const std::uint32_t groups = reduces ? 1 : (shared::SCRIPT_ROUNDS + work.rounds - 1) / work.rounds;
+    shared::ScriptPass push = work.push(m_photons, m_outputs, m_settings);
+    push.lane_block = first_block;
+    push.rounds = work.rounds;
+    const Progress quiet{[&](std::string_view, double fraction) {
+        m_progress.report(STAGE, (first_block + fraction * block_count) / count_blocks(m_photons.count));
+        return work.report.stopped.empty();
+    }};
+    const std::uint64_t most_blocks = m_device.limits().max_group_count / groups;
+    gpu::run_in_chunks(
+        m_device, STAGE, block_count, 1, {},
+        [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
+            if (first > 0)
+                quiet.report(STAGE, static_cast<double>(first) / block_count);
+            push.first_block = first_block + static_cast<std::uint32_t>(first);
+            push.block_count = static_cast<std::uint32_t>(count);
+            for (std::uint32_t turn = 0; turn < dispatches; ++turn) {
+                push.first_round = turn * work.rounds;
+                dispatch(commands, work, push, groups);
+            }
+        },
+        most_blocks);
+    const std::uint32_t flags = work.status_words.read<std::uint32_t>(1)[0];
+    work.has_late_photons = work.has_late_photons || flags != 0;
+}
+
+bool PassRunner::run_blocks(Work& work) {
+    const std::uint32_t blocks = count_blocks(m_photons.count);
+    const std::uint32_t batch = choose_batch(work);
+    ask_neighbors(work, 0, std::min<std::uint32_t>(batch * REDUCTION_BLOCK, static_cast<std::uint32_t>(m_photons.count)));
+    work.rounds = measure_rounds(work);
+    if (work.pass.slot_count == 0)
+        work.rounds = 1; // then a photon that is late leaves the others alone
+    for (std::uint32_t first = 0; first < blocks && work.report.stopped.empty(); first += batch) {
+        const std::uint32_t count = std::min(batch, blocks - first);
+        const std::uint32_t first_photon = first * REDUCTION_BLOCK;
+        const auto photons = static_cast<std::uint32_t>(
+            std::min<std::uint64_t>(std::uint64_t{count} * REDUCTION_BLOCK, m_photons.count - first_photon));
+        if (first > 0)
+            ask_neighbors(work, first_photon, photons);
+        run_batch(work, first, count);
+        if (work.has_late_photons && work.pass.slot_count > 0)
+            break;
+        if (work.pass.slot_count > 0) {
+            const std::size_t size = std::size_t{work.pass.slot_count} * REDUCTION_LANES;
+            const std::vector<std::uint32_t> words = work.lane_words.read<std::uint32_t>(count * size);
+            for (std::uint32_t block = 0; block < count; ++block)
+                work.blocks.push_back(combine_lanes(work.layout, std::span(words).subspan(block * size, size),
+                                                    REDUCTION_LANES));
+        }
+        must_stop(work);
+    }
+    return !work.has_late_photons || take_late_photons(work);
+}
+
+// Photons that need more loop turns than the device has: the interpreter takes them, or, where something is reduced in
+// the order of photons, the whole loop.
+bool PassRunner::take_late_photons(Work& work) {
+    if (work.pass.slot_count == 0 && work.pass.can_miss_photons) {
+        const std::vector<std::uint32_t> words = work.late_bits.read<std::uint32_t>(m_photons.count / WORD_BITS + 1);
+        std::vector<std::uint32_t> late;
+        for (std::uint32_t photon = 0; photon < m_photons.count; ++photon)
+            if (words[photon / WORD_BITS] >> photon % WORD_BITS & 1u)
+                late.push_back(photon);
+        m_outputs.columns.note_device_wrote();
+        if (work.loop.sets_colors)
+            m_outputs.columns.note_colors();
+        work.interpreter.iterate_photons(work.loop, late, work.report);
+        return true;
+    }
+    if (!work.kept_parameters.is_empty()) {
+        gpu::Commands copy(m_device, STAGE);
+        copy.copy(work.kept_parameters, 0, m_columns.parameters(), 0, work.kept_parameters.size_bytes());
+        copy.run();
+    }
+    if (work.loop.sets_parameters || work.loop.sets_colors)
+        m_outputs.columns.note_device_wrote();
+    work.report.stopped.clear();
+    return false;
+}
+
+} // namespace photonloupe::script

@@ -1,0 +1,272 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What can be asked of a photon map and done with it: neighbors, irradiance, scripts, constraints, relaxation."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Unpack
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from photonloupe import queries
+from photonloupe.device import open_device
+from photonloupe.nearest import find_neighbors
+from photonloupe.photon_columns import Float3, PhotonColumns
+from photonloupe.progress import ProgressLike
+from photonloupe.relaxing import RelaxKeywords, relax_photons
+from photonloupe.scripting import Script, ScriptRun, run_script
+
+if TYPE_CHECKING:
+    from photonloupe.photons import PhotonMap
+
+
+class PhotonStages(PhotonColumns):
+    """The stages of the main flow that begin with photons."""
+
+    def neighbors(
+        self,
+        points: ArrayLike,
+        k: int,
+        *,
+        space: str = "world",
+        beta: float | str = 3.0,
+        center: int | None = None,
+        ranges: Mapping[int | str, tuple[float, float]] | None = None,
+        progress: ProgressLike = None,
+    ) -> tuple[NDArray[np.int32], NDArray[np.float32]]:
+        """Find the k nearest photons, nearest first, ties by id.
+
+        Parameters
+        ----------
+        points
+            Points (n, 3) in m, or ids (n,) of photons; a photon is not its own neighbor. In parameter space
+            (n, m) values, or ids.
+        k
+            How many, 1 to 1000.
+        space
+            ``"world"``: all photons, by distance in m. ``"parameter"``: photons with parameters, by distance in
+            parameter space; to an id only those of its emitter. ``"constrained"``: those of the same layer, by
+            distance in m: of the same emitter and within β r_q in parameter space, r_q the distance to the k-th
+            neighbor there (METHODS section 4). Photons without parameters are a layer of their own.
+        beta
+            β of the constrained space, or ``"auto"`` for `optimal_beta`.
+        center
+            Constrained space around points: the layer is that of this photon.
+        ranges
+            Instead: the layer is all photons whose parameters lie within, ``{name or dimension: (low, high)}``,
+            dimensions counted from 3; a periodic parameter may run from high over the seam to low.
+        progress
+            True for a bar, or a callback ``(stage, fraction)`` that returns False to stop.
+
+        Returns
+        -------
+        ids : (n, k) int32
+            Padded with -1 where there are fewer photons.
+        distances : (n, k) float32
+            In m, or in parameter space, padded with inf.
+
+        Raises
+        ------
+        ArgumentError
+            If a point is not finite, an id is not a photon, k is out of range, or the space lacks what it needs.
+
+        Examples
+        --------
+        >>> import numpy as np, photonloupe as pl
+        >>> line = np.array([[0.0, 0, 0], [1, 0, 0], [3, 0, 0]])
+        >>> photons = pl.PhotonMap.from_arrays(positions=line, normals=[[0, 1, 0]] * 3, power=np.ones((3, 3)))
+        >>> photons.neighbors([1], 3)[0].tolist()
+        [[0, 2, -1]]
+        """
+        return find_neighbors(
+            self._as_map(), points, k, space=space, beta=beta, center=center, ranges=ranges, progress=progress
+        )
+
+    def irradiance(
+        self,
+        points: ArrayLike,
+        normals: ArrayLike,
+        *,
+        k: int | None = None,
+        kernel: str = "epanechnikov",
+        progress: ProgressLike = None,
+    ) -> Float3:
+        """Estimate the irradiance from the k nearest photons of the same surface (METHODS section 2).
+
+        Parameters
+        ----------
+        points, normals
+            (n, 3) each: m, directions; one normal (3,) serves all points.
+        k
+            How many photons, 1 to 1000; by default what suits the map's emission.
+        kernel
+            ``"epanechnikov"``, ``"disc"``, ``"cone"`` or ``"gaussian"``.
+        progress
+            True for a bar, or a callback ``(stage, fraction)`` that returns False to stop.
+
+        Returns
+        -------
+        (n, 3) float32
+            W/m² per channel; 0 where no photon is accepted.
+
+        Raises
+        ------
+        ArgumentError
+            If a point or normal is not finite, a normal is zero, or k or kernel is not offered.
+        """
+        photons = self._as_map()
+        k = queries.choose_k(photons.settings) if k is None else k
+        device = open_device(photons.device)
+        return queries.estimate_irradiance(
+            device, photons.upload(), points, normals, k=k, kernel=kernel, progress=progress
+        )
+
+    def run_script(
+        self,
+        script: str | os.PathLike[str] | Script,
+        *,
+        values: Mapping[str, Any] | None = None,
+        keep: bool = False,
+        seed: int = 1,
+        limits: Mapping[str, float] | None = None,
+        progress: ProgressLike = None,
+        **exposed: Any,
+    ) -> ScriptRun:
+        """Run a photon script: it gives the photons parameters and colors (docs/script.md).
+
+        Parameters
+        ----------
+        script
+            A file, if it is a `Path` or one line that ends in ``.photon``; else the text itself; or what
+            `compile_script` made of it.
+        values
+            Exposed variables by name; as keywords too, where the name is free.
+        keep
+            Keep the parameters and colors there are, and replace only what the script sets; otherwise all of them go.
+        seed
+            Of the script's `random`.
+        limits
+            ``fuel``: steps of loops without a known end a photon may take (1e6), ``exhausted``: photons that may run
+            out before a pass stops (1000), ``seconds`` a pass may take (60).
+        progress
+            True for a bar, or a callback ``(stage, fraction)`` that returns False to stop.
+        **exposed
+            Exposed variables.
+
+        Returns
+        -------
+        ScriptRun
+            Parameters, colors, histograms, prints, exposed values, report. The map's columns are replaced.
+
+        Raises
+        ------
+        ScriptError
+            With all `diagnostics`; the map is as it was.
+        ArgumentError
+            If a value is out of its range or not exposed.
+
+        Examples
+        --------
+        >>> import photonloupe as pl
+        >>> photons = pl.trace_photons(pl.load_scene("scenes/ring/ring.gltf"), count=10_000, seed=1)
+        >>> run = photons.run_script('''
+        ...     declarePhotonParameter(3, 0, 2, "height");
+        ...     for (i = 0; i < getNumPhotons(); i++) setPhotonParameter(i, 3, getPhotonPosition(i, Y));
+        ... ''')
+        >>> run.parameter_names, photons.parameters.shape == (len(photons), 1)
+        (('height',), True)
+        """
+        return run_script(
+            self._as_map(), script, values, keep=keep, seed=seed, limits=limits, progress=progress, **exposed
+        )
+
+    def constrain(self, *, progress: ProgressLike = None, **settings: Unpack[RelaxKeywords]) -> PhotonMap:
+        """Measure which way each photon may move, without moving any (METHODS section 5).
+
+        Parameters
+        ----------
+        **settings
+            ``constraint``, ``descriptor``, ``beta``, ``constraint_neighbors``, ``thresholds`` as in `relax`.
+        progress
+            True for a bar, or a callback ``(stage, fraction)`` that returns False to stop.
+
+        Returns
+        -------
+        PhotonMap
+            The same photons with `constraint_basis`, `constraint_weights`, `gradient`, `one_sidedness`.
+        """
+        return relax_photons(self._as_map(), progress, **{**settings, "steps": 0})
+
+    def relax(
+        self,
+        steps: int | None = None,
+        neighbors: int | None = None,
+        *,
+        progress: ProgressLike = None,
+        **settings: Unpack[RelaxKeywords],
+    ) -> PhotonMap:
+        """Move the photons apart until the noise is gone, as far as their constraints allow ([SJ09], METHODS 3 to 5).
+
+        With nothing said, the settings with the least error of all measured (docs/relaxation.md).
+
+        Parameters
+        ----------
+        steps
+            S of eq. 2. It trades noise for bias: photons keep flattening gradients, they never settle.
+        neighbors
+            K of eq. 1, 1 to 998.
+        constraint
+            Which photons say where one may go: ``"world"`` all around it, ``"parameter"`` those of its layer (see
+            `neighbors`), ``"auto"`` the latter where the map has parameters.
+        descriptor
+            ``"pca"``, ``"tensor"``, ``"split"``, ``"gradient"`` (one-sidedness alone), or ``"none"``.
+        beta
+            Reach of layers, or ``"auto"`` for `optimal_beta`.
+        repel
+            Whether all photons repel, ``"world"``, or those of the same layer, ``"parameter"``.
+        over_relaxation
+            λmax and λmin of eq. 2, or one number for both.
+        limit
+            ρ of the migration limiter, eq. 5; None: no limit.
+        constraint_neighbors
+            k of the descriptor, 12 to 998; default 50, split 150.
+        thresholds
+            Value of the descriptor that leaves a photon free, and the one that fixes it across.
+        diffuse_flux
+            Let fluxes even out too; the total is kept.
+        search
+            ``"exact"`` radii, or ``"carried"``: those of the step before, corrected by the number of photons within
+            (faster; its error is in docs/relaxation.md).
+        surface
+            ``"auto"``: photons return to the surface they lie on; ``"tangent"``: they move in their tangent planes.
+        tree
+            What neighbors of a layer are sought in: ``"layered"``, a tree over positions and parameters, or
+            ``"position"``, which needs no building when parameters change; ``"auto"`` takes the former for
+            ``repel="parameter"``. The results are the same but for the last bits.
+        progress
+            True for a bar, or a callback ``(stage, fraction)`` that returns False to stop.
+
+        Returns
+        -------
+        PhotonMap
+            A new map with `drift`, `pressure`, the constraint, and the report in `relaxation`.
+
+        Raises
+        ------
+        ArgumentError
+            If a setting is out of its range, or parameters are asked for that the map does not have.
+
+        Examples
+        --------
+        >>> import photonloupe as pl
+        >>> photons = pl.trace_photons(pl.load_scene("scenes/ring/ring.gltf"), count=10_000, seed=1)
+        >>> relaxed = photons.relax(steps=2)
+        >>> len(relaxed) == len(photons)
+        True
+        """
+        return relax_photons(self._as_map(), progress, **{**settings, "steps": steps, "neighbors": neighbors})
+
+    def _as_map(self) -> PhotonMap:
+        raise NotImplementedError
