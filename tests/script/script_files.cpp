@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "script/check_script.h"
+#include "script/compile_script.h"
 
 namespace photonloupe::test {
 
@@ -61,6 +62,20 @@ std::vector<ExpectedDiagnostic> read_expected(const Source& source) {
         expected.push_back(diagnostic);
     }
     return expected;
+}
+
+std::vector<Diagnostic> compile_for_diagnostics(const Source& source) {
+    const auto compiled = script::compile_script(source);
+    std::vector<Diagnostic> all = compiled->diagnostics;
+    for (const script::PhotonLoop& loop : compiled->plan.loops)
+        for (const Diagnostic& reason : loop.reasons)
+            if (std::none_of(all.begin(), all.end(), [&](const Diagnostic& known) {
+                    return known.code == reason.code && known.span.begin == reason.span.begin;
+                }))
+                all.push_back(reason);
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Diagnostic& a, const Diagnostic& b) { return a.span.begin < b.span.begin; });
+    return all;
 }
 
 std::vector<ExpectedDiagnostic> describe_found(const Source& source, const std::vector<Diagnostic>& diagnostics) {

@@ -23,6 +23,9 @@ struct ExpectedDiagnostic {
 };
 std::vector<ExpectedDiagnostic> read_expected(const script::Source& source);
 
+// All complaints about a script, and why loops of it are serial.
+std::vector<script::Diagnostic> compile_for_diagnostics(const script::Source& source);
+
 // What was found, in the same form.
 std::vector<ExpectedDiagnostic> describe_found(const script::Source& source,
                                                const std::vector<script::Diagnostic>& diagnostics);

@@ -5,35 +5,31 @@
 
 #include <gtest/gtest.h>
 
-#include "script/check_script.h"
+#include "script/compile_script.h"
 #include "script/diagnostic_codes.h"
 #include "script/script_files.h"
 
 namespace photonloupe::test {
 namespace {
 
-using script::Diagnostics;
 using script::Source;
 
 TEST(ScriptFiles, all_of_accept_are_accepted) {
     ASSERT_GE(list_scripts("accept").size(), 10u);
     for (const auto& path : list_scripts("accept")) {
         const Source source = read_script(path);
-        Diagnostics diagnostics;
-        script::check_script(source, diagnostics);
-        EXPECT_EQ(script::format_diagnostics(source, diagnostics.sorted()), "") << path;
+        EXPECT_EQ(script::format_diagnostics(source, compile_for_diagnostics(source)), "") << path;
     }
 }
 
 TEST(ScriptFiles, all_of_reject_are_rejected_as_they_say) {
     for (const auto& path : list_scripts("reject")) {
         const Source source = read_script(path);
-        Diagnostics diagnostics;
-        script::check_script(source, diagnostics);
-        auto found = describe_found(source, diagnostics.sorted());
+        const std::vector<script::Diagnostic> diagnostics = compile_for_diagnostics(source);
+        auto found = describe_found(source, diagnostics);
         const auto expected = read_expected(source);
         ASSERT_EQ(found.size(), expected.size())
-            << path << '\n' << script::format_diagnostics(source, diagnostics.sorted());
+            << path << '\n' << script::format_diagnostics(source, diagnostics);
         for (std::size_t i = 0; i < found.size(); ++i) {
             if (expected[i].column == 0)
                 found[i].line = found[i].column = found[i].width = 0;
@@ -63,10 +59,10 @@ TEST(ScriptFiles, listings_of_the_paper_are_accepted) {
     for (const char* const name : {"algorithm1.photon", "algorithm2.photon"}) {
         const Source source = read_script(std::filesystem::path(folder) / name);
         ASSERT_FALSE(source.text.empty()) << name;
-        Diagnostics diagnostics;
-        const script::Program program = script::check_script(source, diagnostics);
-        EXPECT_EQ(script::format_diagnostics(source, diagnostics.sorted()), "");
-        EXPECT_EQ(program.body.back().kind, script::Statement::Kind::photon_loop);
+        const auto compiled = script::compile_script(source);
+        EXPECT_EQ(script::format_diagnostics(source, compiled->diagnostics), "");
+        ASSERT_EQ(compiled->plan.loops.size(), 1u);
+        EXPECT_TRUE(compiled->plan.loops[0].is_parallel);
     }
 }
 
