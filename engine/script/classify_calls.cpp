@@ -1,70 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a photon loop's calls need and do: neighbour queries, columns, photon columns set.
-#include <algorithm>
-
 #include "script/builtins.h"
+#include "script/diagnostic_codes.h"
 #include "script/plan_loop.h"
 #include "script/substitute.h"
 
 namespace photonloupe::script {
 namespace {
 
-bool is_written(const LoopFacts& facts, std::uint32_t variable) {
-    const auto found = facts.accesses.names.find(variable);
-    return variable == facts.statement.variable ||
-           (found != facts.accesses.names.end() && !(found->second.writes.empty() && found->second.steps.empty()));
-}
-
-bool is_uniform(const LoopFacts& facts, const Expression& expression);
-
-bool is_uniform(const LoopFacts& facts, const Function& function) {
-    const std::vector<std::uint32_t> own = list_own_variables(facts.program, function);
-    bool uniform = true;
-    visit_expressions(function.body, [&](const Expression& e) {
-        const bool is_own = std::find(own.begin(), own.end(), e.variable) != own.end();
-        if (e.kind == Expression::Kind::variable || e.kind == Expression::Kind::element)
-            uniform &= is_own || !is_written(facts, e.variable);
-        else if (e.kind == Expression::Kind::builtin || e.kind == Expression::Kind::call)
-            uniform &= is_uniform(facts, e);
-    });
-    return uniform;
-}
-
-bool is_uniform(const LoopFacts& facts, const Expression& expression) {
-    bool uniform = true;
-    visit_expressions(expression, [&](const Expression& e) {
-        switch (e.kind) {
-        case Expression::Kind::variable:
-        case Expression::Kind::element: uniform &= !is_written(facts, e.variable); break;
-        case Expression::Kind::assignment: uniform = false; break;
-        case Expression::Kind::call: uniform &= is_uniform(facts, facts.program.functions[e.function]); break;
-        case Expression::Kind::builtin:
-            uniform &= e.builtin->effect == Effect::none || (e.builtin->effect == Effect::reads_photon &&
-                                                            e.builtin->id != BuiltinId::get_photon_parameter);
-            break;
-        default: break;
-        }
-    });
-    return uniform;
-}
-
-void add_query(const LoopFacts& facts, PhotonLoop& loop, const Expression& call, Diagnostics& diagnostics) {
+void add_query(const LoopFacts& facts, PhotonLoop& loop, const Expression& call) {
     NeighborQuery query;
     query.call = &call;
     query.space = call.builtin->id == BuiltinId::get_knn             ? NeighborQuery::Space::world
                   : call.builtin->id == BuiltinId::get_parameter_knn ? NeighborQuery::Space::parameter
                                                                      : NeighborQuery::Space::constrained;
     query.is_at_loop_photon = is_loop_photon(loop, call.operands[0]);
-    for (std::size_t i = 1; i < call.operands.size(); ++i) {
-        std::optional<Expression>& target = i == 1 ? query.count : query.beta;
-        target = substitute_given(facts.program, loop, call.operands[i]);
-        if (is_uniform(facts, *target))
-            continue;
-        diagnostics.add("E071", call.operands[i].span,
-                        std::string(i == 1 ? "the number of neighbours" : "the factor") + " of '" +
-                            std::string(call.builtin->name) + "' must be the same for all photons",
-                        "compute it before the loop over photons, from values that the loop does not change");
-    }
+    if (call.operands.size() > 1)
+        query.count = substitute_given(facts.program, loop, call.operands[1]);
+    if (call.operands.size() > 2)
+        query.beta = substitute_given(facts.program, loop, call.operands[2]);
     loop.queries.push_back(std::move(query));
 }
 
@@ -83,7 +37,7 @@ const Expression* find_call(const LoopFacts& facts, BuiltinId id) {
 
 void refuse_query(const LoopFacts& facts, const NeighborQuery& query, Diagnostics& diagnostics) {
     const Expression& setter = *find_call(facts, BuiltinId::set_photon_parameter);
-    diagnostics.add("E070", query.call->span,
+    diagnostics.add(codes::SETS_AND_QUERIES, query.call->span,
                     "'" + std::string(query.call->builtin->name) +
                         "' looks for neighbours in parameter space while the same loop sets parameters (line " +
                         std::to_string(facts.find_line(setter.span)) + ")",
@@ -102,7 +56,7 @@ void classify_calls(const LoopFacts& facts, PhotonLoop& loop, Diagnostics& diagn
         case BuiltinId::print: loop.prints = true; break;
         case BuiltinId::get_knn:
         case BuiltinId::get_parameter_knn:
-        case BuiltinId::get_constrained_knn: add_query(facts, loop, *call, diagnostics); break;
+        case BuiltinId::get_constrained_knn: add_query(facts, loop, *call); break;
         case BuiltinId::get_photon_parameter:
             if (reads_position(facts, loop, *call)) {
                 loop.columns |= COLUMN_POSITION;
@@ -127,13 +81,13 @@ void explain_calls(const LoopFacts& facts, PhotonLoop& loop) {
     const std::string photon = "'" + facts.program.variables[facts.statement.variable].name + "'";
     for (const Expression* call : facts.accesses.calls) {
         if (call->builtin->effect == Effect::sets_photon && !is_loop_photon(loop, call->operands[0]))
-            loop.reasons.push_back({"W073", Severity::warning, call->operands[0].span,
+            loop.reasons.push_back({codes::OTHER_PHOTON, Severity::warning, call->operands[0].span,
                                     "the loop over photons runs serially: " + quote(*call) +
                                         " writes at another photon than the loop's own, " + photon,
                                     "write at " + photon + " only; what other photons give can be read there"});
         if (call->builtin->id == BuiltinId::get_photon_parameter && loop.sets_parameters &&
             !is_loop_photon(loop, call->operands[0]) && !reads_position(facts, loop, *call))
-            loop.reasons.push_back({"W073", Severity::warning, call->operands[0].span,
+            loop.reasons.push_back({codes::OTHER_PHOTON, Severity::warning, call->operands[0].span,
                                     "the loop over photons runs serially: " + quote(*call) +
                                         " reads parameters of other photons, which the loop sets",
                                     "set the parameters in one loop over photons and read them in the next"});

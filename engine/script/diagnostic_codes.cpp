@@ -45,6 +45,13 @@ constexpr DiagnosticCode TABLE[] = {
     {codes::UNSUPPORTED_OPERATOR, "An operator of C that scripts do not have."},
     {codes::NOT_CONSTANT, "An array's size that is not known when the script is compiled."},
     {codes::REAL_LOOP_VARIABLE, "A loop over photons that is none, since its variable holds real numbers elsewhere."},
+    {codes::SETS_AND_QUERIES, "Parameters are set, and neighbors in parameter space sought, in one loop over photons."},
+    {codes::PASS_TOO_LONG, "A loop over photons that becomes more than 128 KiB of GLSL."},
+    {codes::KEEPS_VALUE, "A serial loop: a variable keeps its value from photon to photon, or is read after the loop."},
+    {codes::REDUCED_AND_USED, "A serial loop: a variable is summed, minimized or maximized and also used otherwise."},
+    {codes::LEAVES_LOOP, "A serial loop: it ends early, or its variable is assigned."},
+    {codes::OTHER_PHOTON, "A serial loop: other photons are written, or their parameters read while they are set."},
+    {codes::KEEPS_POINTS, "A serial loop: a PCA keeps points from photon to photon, or is read after the loop."},
 };
 
 } // namespace

@@ -53,6 +53,14 @@ inline constexpr char UNSUPPORTED_OPERATOR[] = "E037";
 inline constexpr char NOT_CONSTANT[] = "E038";
 // Worth knowing.
 inline constexpr char REAL_LOOP_VARIABLE[] = "W010";
+// Passes.
+inline constexpr char SETS_AND_QUERIES[] = "E070";
+inline constexpr char PASS_TOO_LONG[] = "E072";
+inline constexpr char KEEPS_VALUE[] = "W070";
+inline constexpr char REDUCED_AND_USED[] = "W071";
+inline constexpr char LEAVES_LOOP[] = "W072";
+inline constexpr char OTHER_PHOTON[] = "W073";
+inline constexpr char KEEPS_POINTS[] = "W074";
 } // namespace codes
 
 struct DiagnosticCode {

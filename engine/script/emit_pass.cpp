@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Puts a pass together: includes, declarations, the loop's body, what surrounds it.
+#include "script/diagnostic_codes.h"
 #include "script/emitter.h"
 #include "script/pass_libraries.h"
 
 namespace photonloupe::script {
 namespace {
-
-constexpr const char* PASS_TOO_LONG = "E072";
 
 std::string indent(std::uint32_t depth) { return std::string(4 * depth, ' '); }
 
@@ -22,7 +21,7 @@ EmittedPass Emitter::emit() {
     m_pass.glsl = compose_head() + compose_declarations() + m_functions + "void run_body() {\n" + body.text + "}\n\n" +
                   compose_photon() + compose_main();
     if (m_pass.glsl.size() > MAX_GLSL_BYTES) {
-        m_pass.too_long = Diagnostic{PASS_TOO_LONG, Severity::error, m_loop.statement->span,
+        m_pass.too_long = Diagnostic{codes::PASS_TOO_LONG, Severity::error, m_loop.statement->span,
                                      "this loop over photons becomes " + std::to_string(m_pass.glsl.size() / 1024) +
                                          " KiB of GLSL; the limit is " + std::to_string(MAX_GLSL_BYTES / 1024) + " KiB",
                                      "split the loop, or call large functions in fewer places"};
@@ -140,7 +139,7 @@ std::string Emitter::compose_finish() const {
     std::string text;
     if (m_loop.sets_parameters)
         for (int dimension = 3; dimension < 16; ++dimension)
-            if (m_dimensions.empty() || m_dimensions.contains(dimension))
+            if (m_has_computed_dimensions || m_dimensions.contains(dimension))
                 text += indent(2) + "write_parameter(" + std::to_string(dimension) + ");\n";
     if (m_libraries.contains("colors"))
         text += indent(2) + "write_color();\n";

@@ -170,6 +170,9 @@ Code Emitter::emit_set_parameter(const Expression& e) {
                        },
                        [&] { return emit_as(e.operands[2], Type::real); }},
                       {Type::integer, Type::real});
+    if (constant)
+        m_dimensions.insert(*constant);
+    m_has_computed_dimensions |= !constant;
     const std::string call = "stage_parameter(" + codes[0].text + ", " + codes[1].text + ");";
     if (constant) {
         write_line("if (is_inside(" + codes[0].text + " - 3, int(settings.parameter_count), " + site + ")) " + call);

@@ -181,7 +181,8 @@ private:
         std::function<void()> before_next; // what `continue` must do first
     };
     std::vector<LoopContext> m_loops;
-    std::set<int> m_dimensions; // set by number; empty: by computed ones
+    std::set<int> m_dimensions; // of parameters that are set by a known number
+    bool m_has_computed_dimensions = false;
     bool m_has_loops = false, m_has_element_reductions = false, m_uses_own_path = false;
     std::set<std::pair<std::uint32_t, std::string>> m_zeros; // arrays of zeros that declarations copy: size, type
 };

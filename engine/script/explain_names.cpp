@@ -2,6 +2,7 @@
 // Says why a name makes a loop over photons serial, and how to rewrite it.
 #include <algorithm>
 
+#include "script/diagnostic_codes.h"
 #include "script/plan_loop.h"
 
 namespace photonloupe::script {
@@ -39,7 +40,7 @@ std::string find_later_read(const LoopFacts& facts, std::uint32_t variable) {
 }
 
 Diagnostic explain_mixture(const std::string& name, const NameAccesses& uses, const NameAccesses::Step& other) {
-    return {"W071", Severity::warning, other.span,
+    return {codes::REDUCED_AND_USED, Severity::warning, other.span,
             SERIAL + name + " is both " + describe_role(uses.steps[0].role) + " and " + describe_role(other.role),
             "use one variable for each"};
 }
@@ -50,7 +51,7 @@ Diagnostic explain_step(const LoopFacts& facts, const std::string& name, const N
         if (step.role != first.role || step.of != first.of)
             return explain_mixture(name, uses, step);
     const bool is_read = !uses.reads.empty();
-    return {"W071", Severity::warning, is_read ? uses.reads[0] : uses.writes[0],
+    return {codes::REDUCED_AND_USED, Severity::warning, is_read ? uses.reads[0] : uses.writes[0],
             SERIAL + name + " is " + describe_role(first.role) + " over photons (line " +
                 std::to_string(facts.find_line(first.span)) + ") and also " + (is_read ? "read" : "assigned") +
                 " in the loop",
@@ -59,7 +60,7 @@ Diagnostic explain_step(const LoopFacts& facts, const std::string& name, const N
 }
 
 Diagnostic explain_array(const std::string& name, const NameAccesses& uses) {
-    return {"W070", Severity::warning, uses.writes[0],
+    return {codes::KEEPS_VALUE, Severity::warning, uses.writes[0],
             SERIAL + "elements of " + name + " keep values from one photon to the next",
             "declare the array inside the loop, or reduce into it: 'a[k] += e', 'a[k] = min(a[k], e)', "
             "'if (e < a[k]) a[k] = e'"};
@@ -68,11 +69,11 @@ Diagnostic explain_array(const std::string& name, const NameAccesses& uses) {
 Diagnostic explain_scalar(const LoopFacts& facts, std::uint32_t variable, const std::string& name,
                           const NameAccesses& uses) {
     if (facts.enters[variable])
-        return {"W070", Severity::warning, uses.reads.empty() ? uses.writes[0] : uses.reads[0],
+        return {codes::KEEPS_VALUE, Severity::warning, uses.reads.empty() ? uses.writes[0] : uses.reads[0],
                 SERIAL + name + " may keep its value from one photon to the next",
                 "assign it in every iteration before it is read, or reduce into it: 's += e', 's = min(s, e)', "
                 "'if (e < s) { s = e; j = i; }'"};
-    return {"W070", Severity::warning, uses.writes[0],
+    return {codes::KEEPS_VALUE, Severity::warning, uses.writes[0],
             SERIAL + name + " is read after the loop" + find_later_read(facts, variable) +
                 ", where it holds the last photon's value",
             "reduce into it ('s += e', 's = min(s, e)'), or use another variable after the loop"};
@@ -85,7 +86,7 @@ void explain_accumulator(const LoopFacts& facts, PhotonLoop& loop, AccumulatorUs
     const NameAccesses& uses = facts.accesses.names.at(name);
     const Span span = !uses.reads.empty() ? uses.reads[0] : !uses.steps.empty() ? uses.steps[0].span : uses.writes[0];
     const bool is_decomposition = name == facts.names.decomposition();
-    loop.reasons.push_back({"W074", Severity::warning, span,
+    loop.reasons.push_back({codes::KEEPS_POINTS, Severity::warning, span,
                             SERIAL + text +
                                 (facts.enters[name] ? " keeps points from one photon to the next"
                                                     : " of the last photon is read after the loop"),
@@ -102,14 +103,14 @@ void explain_names(const LoopFacts& facts, PhotonLoop& loop) {
     if (const auto found = facts.accesses.names.find(photon); found != facts.accesses.names.end()) {
         const NameAccesses& uses = found->second;
         if (!uses.writes.empty() || !uses.steps.empty())
-            loop.reasons.push_back({"W072", Severity::warning,
+            loop.reasons.push_back({codes::LEAVES_LOOP, Severity::warning,
                                     uses.writes.empty() ? uses.steps[0].span : uses.writes[0],
                                     SERIAL + ("its variable '" + facts.program.variables[photon].name) +
                                         "' is assigned in it",
                                     "use another variable; 'continue' goes on to the next photon"});
     }
     for (const Span span : facts.accesses.leaves)
-        loop.reasons.push_back({"W072", Severity::warning, span, SERIAL + "'break' ends it early",
+        loop.reasons.push_back({codes::LEAVES_LOOP, Severity::warning, span, SERIAL + "'break' ends it early",
                                 "use 'continue' to leave out a photon"});
     for (const auto& [variable, use] : loop.variables) {
         if (use.role != Role::carried)

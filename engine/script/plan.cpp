@@ -56,7 +56,7 @@ void find_given(const Program& program, const std::vector<Statement>& body, cons
         const Function& function = program.functions[e.function];
         for (std::size_t i = 0; i < function.parameters.size(); ++i)
             if (const auto found = accesses.names.find(function.parameters[i]);
-                found != accesses.names.end() && found->second.writes.size() == 1)
+                found != accesses.names.end() && found->second.writes.size() == 1 && found->second.steps.empty())
                 given[function.parameters[i]] = &e.operands[i];
         find_given(program, function.body, accesses, given);
     });

@@ -38,8 +38,7 @@ struct NeighborQuery {
     enum class Space : std::uint8_t { world, parameter, constrained };
     const Expression* call = nullptr; // the builtin call
     Space space = Space::world;
-    // k and β in terms of uniform names alone: functions' parameters are replaced by what they are given, so that the
-    // interpreter evaluates them before the pass. Absent: the default k; no β.
+    // k and β in terms that hold before the loop. Absent: the default k; no β.
     std::optional<Expression> count, beta;
     bool is_at_loop_photon = false;   // then chunks suffice; else rows of all photons are needed
 };

@@ -94,7 +94,7 @@ float script_asin(float x) {
     return size <= 1.0 ? uintBitsToFloat(floatBitsToUint(angle) | (floatBitsToUint(x) & 0x80000000u)) : NAN;
 }
 
-// Arc tangent of a positive number or inf (Cephes atanf): error below 2 ulp.
+// Arc tangent of a positive number or inf (Cephes atanf): error below 3 ulp.
 float atan_positive(float x) {
     bool is_large = x > 2.414213562373095, is_middle = x > 0.4142135623730950;
     float reduced = is_large ? -1.0 / x : is_middle ? (x - 1.0) / (x + 1.0) : x;
@@ -106,7 +106,7 @@ float atan_positive(float x) {
     return angle;
 }
 
-// Error below 2 ulp.
+// Error below 3 ulp.
 float script_atan(float x) {
     float angle = atan_positive(script_abs(x));
     angle = uintBitsToFloat(floatBitsToUint(angle) | (floatBitsToUint(x) & 0x80000000u));
@@ -203,8 +203,9 @@ vec2 log_in_two(float x) {
     return add_exactly(whole.x, rest);
 }
 
-// x to the power y for positive finite x and finite y. Error below 2 ulp.
+// x to the power y for positive finite x and finite y. Error below 2 ulp, where the result is not denormal.
 float pow_positive(float x, float y) {
+    y = clamp(y, -1e30, 1e30); // beyond, splitting overflows; the result is 0, 1 or inf there
     vec2 logarithm = log_in_two(x);
     precise float power = y * logarithm.x;
     if (!(abs(power) < 200.0)) return power > 0.0 ? INFINITY : 0.0;
