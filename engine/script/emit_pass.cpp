@@ -64,7 +64,9 @@ std::string Emitter::declare_variable(std::uint32_t index, bool is_parameter) co
     const Variable& v = variable(index);
     const std::string start = m_function_variables.contains(index) ? "    " : "";
     std::string text;
-    const std::string type = v.type == Type::integer ? "int" : v.type == Type::list ? "ivec2" : "precise float";
+    // glslang 12 loses the declaration of global variables that are precise.
+    const std::string real = start.empty() ? "float" : "precise float";
+    const std::string type = v.type == Type::integer ? "int" : v.type == Type::list ? "ivec2" : real;
     if (!is_parameter)
         text = start + type + " " + m_names.at(index) +
                (v.array_size > 0 ? "[" + std::to_string(v.array_size) + "]" : "") +
