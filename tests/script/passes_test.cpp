@@ -224,7 +224,7 @@ TEST(Passes, neighbor_lists_agree) {
     };
     expect_same(R"(
 declarePhotonParameter(3, 0, 1); n = getNumPhotons(); k = 7; fixed = getKNN(5, 4);
-function sum(p) { list = getKNN(p, 6); s = 0; for (j = 0; j < length(list); j++) s += list[j]; return s; }
+function sum(p) { list = getKNN(p, 6); total = 0; for (q = 0; q < length(list); q++) total += list[q]; return total; }
 for (i = 0; i < n; i++) {
   a = getKNN(i, k); b = getKNN(a[2], 3); c = getKNN(i, 1000);
   s = 0; for (j = 0; j < length(a); j++) s += a[j];
