@@ -13,6 +13,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/vector.h>
 
 #include "gpu/device.h"
@@ -94,6 +95,7 @@ void bind_device(nb::module_& module);
 void bind_scene(nb::module_& module);
 void bind_trace(nb::module_& module);
 void bind_photons(nb::module_& module);
+void bind_script(nb::module_& module);
 void bind_relax(nb::module_& module);
 void bind_estimate(nb::module_& module);
 void bind_image(nb::module_& module);

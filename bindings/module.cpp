@@ -17,6 +17,7 @@ NB_MODULE(_engine, module) {
     bindings::bind_scene(module);
     bindings::bind_photons(module);
     bindings::bind_trace(module);
+    bindings::bind_script(module);
     bindings::bind_relax(module);
     bindings::bind_estimate(module);
     bindings::bind_image(module);

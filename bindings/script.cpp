@@ -50,7 +50,10 @@ nb::list list_diagnostics(const BoundScript& self) {
         row["column"] = start.column;
         row["end_line"] = end.line;
         row["end_column"] = end.column;
-        row["text"] = script::format_diagnostic(source, diagnostic);
+        std::string text = script::format_diagnostic(source, diagnostic);
+        while (!text.empty() && text.back() == '\n')
+            text.pop_back();
+        row["text"] = text;
         rows.append(row);
     }
     return rows;

@@ -2,6 +2,7 @@
 // What a pass is brought before it runs, and what is fetched from it afterwards.
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <numeric>
 
 #include "core/error.h"

@@ -280,7 +280,7 @@ class PhotonMap(PhotonStages):
         """Return the map on the device with the path columns a script reads, recorded now if need be."""
         native = self.upload()
         wanted = [name for name in PATH_NAMES if name in names]
-        if not wanted or self._has_uploaded_paths:
+        if not wanted:
             return native
         self._record_paths()
         missing = [name for name in wanted if name not in self._columns]
@@ -288,6 +288,8 @@ class PhotonMap(PhotonStages):
             raise PhotonLoupeError(
                 f"the script reads {missing[0]}, which this map does not have; give it to from_arrays"
             )
+        if self._has_uploaded_paths:
+            return native
         paths = {name: np.ascontiguousarray(self._columns[name]) for name in PATH_NAMES if name in self._columns}
         _engine.set_paths(open_device(self._device)._native, native, paths)
         self._has_uploaded_paths = True

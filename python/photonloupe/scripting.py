@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -249,16 +249,19 @@ def run_script(
         "seed": check_count("seed", seed, 0, MAX_SEED),
         **_check_limits(limits),
     }
+    if keep:
+        settings["parameters"] = [asdict(parameter) for parameter in photons.parameter_list]
+        settings["old_values"] = np.ascontiguousarray(photons.parameters) if photons.parameter_list else None
+        settings["old_colors"] = np.ascontiguousarray(photons.colors) if "colors" in photons.recorded else None
     native = photons.upload_columns(compiled.columns)
     with follow_progress(progress) as callback:
         found = compiled._native.run(open_device(photons.device)._native, native, settings, callback)
     parameters = tuple(Parameter(**row) for row in found["parameters"])
-    settings["exposed"] = found["exposed"]
-    photons.take_script_columns(
-        found["values"], parameters, found["colors"], {"name": compiled.name, "hash": compiled.hash, **settings}
-    )
+    columns = found["values"].reshape(len(photons), len(parameters))
+    made_by = {"name": compiled.name, "hash": compiled.hash, "values": found["exposed"], "seed": settings["seed"]}
+    photons.take_script_columns(columns, parameters, found["colors"], {**made_by, "keep": settings["keep"]})
     return ScriptRun(
-        parameters=found["values"],
+        parameters=columns,
         parameter_names=tuple(parameter.name for parameter in parameters),
         parameter_bounds=np.array([(p.low, p.high) for p in parameters], dtype=np.float32).reshape(-1, 2),
         colors=found["colors"],

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 from photonloupe import __version__
-from photonloupe.cli import compare, demo, doctor, relax, render, trace
+from photonloupe.cli import compare, demo, doctor, relax, render, script, trace
 from photonloupe.cli.common import (
     EXIT_BAD_INPUT,
     EXIT_INTERNAL,
@@ -21,9 +21,9 @@ from photonloupe.cli.common import (
     EXIT_OK,
     add_common_options,
 )
-from photonloupe.errors import Cancelled, DeviceError, DeviceMemoryError, PhotonLoupeError
+from photonloupe.errors import Cancelled, DeviceError, DeviceMemoryError, PhotonLoupeError, ScriptError
 
-_VERBS = (render, trace, relax, compare, doctor, demo)
+_VERBS = (render, trace, script, relax, compare, doctor, demo)
 
 
 class _Parser(argparse.ArgumentParser):
@@ -37,7 +37,7 @@ def build_parser() -> argparse.ArgumentParser:
     """Build the parser of every verb."""
     parser = _Parser(
         prog="photonloupe",
-        description="Photon mapping as data: trace, relax, render, inspect, compare.",
+        description="Photon mapping as data: trace, script, relax, render, inspect, compare.",
         epilog="Exit codes: 0 ok, 1 the answer is no, 2 wrong use or bad input, 3 no usable device, 4 out of memory.",
     )
     parser.add_argument("--version", action="version", version=f"photonloupe {__version__}")
@@ -66,6 +66,8 @@ def _choose_exit_code(error: BaseException) -> int:
 def _describe_error(error: BaseException, code: int) -> str:
     if code == EXIT_INTERRUPTED:
         return "stopped on request; nothing was written"
+    if isinstance(error, ScriptError):
+        return "the script is wrong\n" + str(error)
     text = " ".join(str(error).split()) or type(error).__name__
     if code == EXIT_NO_MEMORY and isinstance(error, MemoryError):
         return f"out of memory ({text}); ask for fewer photons or pixels"

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 
 import photonloupe as pl
 from photonloupe.checks import check_count, check_number
@@ -16,11 +17,13 @@ from photonloupe.cli.common import (
     choose_progress,
     print_result,
 )
+from photonloupe.cli.script import add_value_options, parse_values
 from photonloupe.device import open_device
 from photonloupe.errors import ArgumentError
 from photonloupe.image import MAX_EXPOSURE, check_image_path
 from photonloupe.relaxing import MAX_STEPS
 from photonloupe.rendering import MODES
+from photonloupe.scripting import check_values
 
 SUMMARY = "trace a scene and render it"
 DESCRIPTION = "Trace photons through a glTF scene, gather them, and write an .exr (linear radiance) or a .png."
@@ -31,13 +34,15 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("scene", metavar="SCENE", help=".gltf or .glb")
     parser.add_argument("-o", "--output", required=True, metavar="FILE", help=".exr or .png")
     add_photon_options(parser, None)
+    parser.add_argument("--script", metavar="FILE", help="run this .photon script over the photons first")
+    add_value_options(parser)
     parser.add_argument(
         "--relax",
         type=int,
         nargs="?",
         const=True,
         metavar="STEPS",
-        help="relax the photons first, constrained in world space; STEPS: default the best known",
+        help="relax the photons, constrained by the script's parameters, else in world space; default STEPS: the best",
     )
     parser.add_argument("--k", type=int, metavar="N", help="photons in an estimate, 1 to 1000")
     parser.add_argument("--width", type=int, default=512, metavar="N", help="pixels; default 512")
@@ -55,6 +60,20 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add_device_option(parser)
 
 
+def _read_script(arguments: argparse.Namespace) -> tuple[pl.Script | None, dict[str, float]]:
+    """Check the script before any photon is traced."""
+    values = parse_values(arguments.set)
+    if arguments.script is None:
+        if values:
+            raise ArgumentError("--set gives a value to a script; name it with --script")
+        if arguments.mode == "false-color":
+            raise ArgumentError("--mode false-color shows the colors a script gives; name it with --script")
+        return None, {}
+    script = pl.compile_script(Path(arguments.script))
+    script.require()
+    return script, check_values(script, values)
+
+
 def run(arguments: argparse.Namespace) -> int:
     """Run the verb."""
     output = check_image_path(arguments.output)
@@ -63,8 +82,10 @@ def run(arguments: argparse.Namespace) -> int:
     steps = None if arguments.relax is True else arguments.relax
     if steps is not None:
         check_count("--relax", steps, 0, MAX_STEPS)
-    if arguments.relax is not None and arguments.mode == "direct":
-        raise ArgumentError("--mode direct uses no photons; leave --relax out, or choose another mode")
+    for option in ("relax", "script"):
+        if getattr(arguments, option) is not None and arguments.mode == "direct":
+            raise ArgumentError(f"--mode direct uses no photons; leave --{option} out, or choose another mode")
+    script, values = _read_script(arguments)
     quality = QUALITIES[arguments.quality]
     count = quality.photons if arguments.photons is None else arguments.photons
     watch = Stopwatch()
@@ -77,9 +98,12 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.mode != "direct":
         with watch.measure("trace"):
             photons = pl.trace_photons(scene, count, seed=arguments.seed, device=device, progress=progress)
+    if photons is not None and script is not None:
+        with watch.measure("script"):
+            photons.run_script(script, values=values, progress=progress)
     if photons is not None and arguments.relax is not None:
         with watch.measure("relax"):
-            photons = photons.relax(steps, constraint="world", progress=progress)
+            photons = photons.relax(steps, progress=progress)
     with watch.measure("render"):
         image = pl.render(
             scene,
