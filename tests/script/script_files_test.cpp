@@ -33,6 +33,8 @@ TEST(ScriptFiles, all_of_reject_are_rejected_as_they_say) {
         for (std::size_t i = 0; i < found.size(); ++i) {
             if (expected[i].column == 0)
                 found[i].line = found[i].column = found[i].width = 0;
+            if (const std::size_t cut = expected[i].message.find("..."); cut != std::string::npos)
+                found[i].message = found[i].message.substr(0, cut) + "...";
             EXPECT_EQ(to_text(found[i]), to_text(expected[i])) << path;
         }
     }
