@@ -133,7 +133,7 @@ void expect_same_reports(const Ran& device, const Ran& host) {
 
 } // namespace
 
-HostPhotons make_random_photons(std::uint32_t count, std::uint32_t seed) {
+HostPhotons make_random_photons(std::uint32_t count, std::uint32_t seed, std::uint32_t given) {
     std::mt19937 random(seed);
     const auto draw = [&random](float low, float high) {
         return low + (high - low) * float(random() >> 8) / 16777216.0f;
@@ -162,7 +162,7 @@ HostPhotons make_random_photons(std::uint32_t count, std::uint32_t seed) {
         add_unit(photons.normals);
         photons.power.insert(photons.power.end(), {draw(0, 1), draw(0, 2), draw(0, 3)});
         photons.emitters.push_back(std::int32_t(random() % 3));
-        const std::uint32_t vertices = 2 + random() % 6;
+        const std::uint32_t vertices = given > 0 ? given : 2 + random() % 6;
         for (std::uint32_t j = 0; j < vertices; ++j) {
             add_point(photons.path_vertices);
             add_unit(photons.path_normals);
