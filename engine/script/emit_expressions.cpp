@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Expressions as GLSL: names, operators, order of evaluation.
+#include <algorithm>
+#include <cmath>
+
 #include "script/emitter.h"
 #include "script/glsl_numbers.h"
 
@@ -39,7 +42,10 @@ Code join(const Code& a, OperatorText operation, const Code& b) {
             a.is_stable && b.is_stable, std::max(a.depth, b.depth) + 1};
 }
 
+// Mesa's device takes x · 0 and 0 / x for 0, and x / 0 for anything: it must not see that a factor is 0.
 Code make_number(Type type, double value) {
+    if (type == Type::real && float(value) == 0)
+        return std::signbit(value) ? Code{"-ZERO", Binding::unary, true} : Code{"ZERO", Binding::primary, true};
     const std::string text = write_number(type, value);
     return {text, text[0] == '-' ? Binding::unary : Binding::primary, true};
 }
@@ -49,7 +55,7 @@ Code make_number(Type type, double value) {
 Code Emitter::convert(const Code& code, Type from, Type to) {
     if (from == to || to != Type::real || from != Type::integer)
         return code;
-    return {"float(" + code.text + ")", Binding::primary, code.is_stable, code.depth + 1};
+    return {"real(" + code.text + ")", Binding::primary, code.is_stable, code.depth + 1};
 }
 
 Code Emitter::emit_as(const Expression& e, Type type) {
@@ -85,6 +91,10 @@ std::vector<Code> Emitter::emit_numbers(const Expression& call, std::size_t firs
 }
 
 Code Emitter::emit(const Expression& e) {
+    // glslang computes constants in double precision.
+    if (e.kind == Expression::Kind::binary || e.kind == Expression::Kind::unary)
+        if (const std::optional<double> value = find_constant(m_program, m_loop, e))
+            return make_number(e.type, *value);
     switch (e.kind) {
     case Expression::Kind::number: return make_number(e.type, e.type == Type::integer ? e.integer : e.real);
     case Expression::Kind::text: return {"0", Binding::primary, true};
@@ -167,7 +177,10 @@ Code Emitter::emit_unary(const Expression& e) {
 Code Emitter::emit_comparison(const Expression& e) {
     const bool is_real = e.operands[0].type == Type::real || e.operands[1].type == Type::real;
     const Type type = is_real ? Type::real : Type::integer;
-    const std::vector<Code> codes = emit_numbers(e, 0, type);
+    std::vector<Code> codes = emit_numbers(e, 0, type);
+    for (Code& code : codes)
+        if (code.text == "ZERO")
+            code.text = "0.0";
     return join(codes[0], find_operator(e.operation), codes[1]);
 }
 

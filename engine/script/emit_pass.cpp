@@ -64,13 +64,12 @@ std::string Emitter::declare_variable(std::uint32_t index, bool is_parameter) co
     const Variable& v = variable(index);
     const std::string start = m_function_variables.contains(index) ? "    " : "";
     std::string text;
-    // glslang 12 loses the declaration of global variables that are precise.
-    const std::string real = start.empty() ? "float" : "precise float";
-    const std::string type = v.type == Type::integer ? "int" : v.type == Type::list ? "ivec2" : real;
+    const std::string type = v.type == Type::integer ? "int" : v.type == Type::list ? "ivec2" : "float";
+    const std::string& name = m_names.at(index);
     if (!is_parameter)
-        text = start + type + " " + m_names.at(index) +
-               (v.array_size > 0 ? "[" + std::to_string(v.array_size) + "]" : "") +
-               (v.type == Type::list && !start.empty() ? " = ivec2(0)" : "") + ";\n";
+        text = start + type + " " + name + (v.array_size > 0 ? "[" + std::to_string(v.array_size) + "]" : "") +
+               (v.type == Type::list && !start.empty() ? " = ivec2(0)" : "") + ";" +
+               (v.type == Type::real ? " precise " + name + ";" : "") + "\n"; // in one, glslang makes globals local
     if (const auto flag = m_set_flags.find(index); flag != m_set_flags.end())
         text += start + "bool " + flag->second + (start.empty() ? "" : is_parameter ? " = true" : " = false") + ";\n";
     if (const auto photon = m_photon_names.find(index); photon != m_photon_names.end())

@@ -44,6 +44,8 @@ void Emitter::plan_words() {
         m_pass.moments_3d_word = take_words(shared::MOMENTS_WORDS);
     if (m_loop.decomposition == AccumulatorUse::uniform)
         m_pass.decomposition_word = take_words(shared::DECOMPOSITION_WORDS);
+    if (m_pass.moments_2d_word || m_pass.moments_3d_word || m_pass.decomposition_word)
+        use("pca_words");
     for (const NeighborQuery& query : m_loop.queries)
         m_pass.queries.push_back({&query, take_words(shared::QUERY_STRIDE)});
 }
@@ -70,6 +72,8 @@ void Emitter::plan_slots() {
         m_pass.moments_3d_slot = take_slots(shared::MOMENTS_WORDS);
     if (m_pass.slot_count > 0)
         use("lanes");
+    if (m_pass.moments_2d_slot || m_pass.moments_3d_slot)
+        use("pca_lanes");
 }
 
 // Known when the script is compiled: needs no word.

@@ -2,9 +2,29 @@
 // Sees through functions' parameters: what a name in an inlined body stands for.
 #include "script/plan.h"
 
+#include "script/apply_operator.h"
 #include "script/substitute.h"
 
 namespace photonloupe::script {
+namespace {
+
+Number to_number(const Expression& expression, double value) {
+    Number number;
+    if (expression.type == Type::integer)
+        number.integer = std::int32_t(value);
+    else
+        number.real = float(value);
+    return number;
+}
+
+double to_double(Type type, Number number) { return type == Type::integer ? number.integer : double(number.real); }
+
+// Neither reports anything nor leaves anything out.
+bool is_foldable(Operator operation) {
+    return operation != Operator::modulo && operation != Operator::logical_and && operation != Operator::logical_or;
+}
+
+} // namespace
 
 bool PhotonLoop::has_reductions() const {
     for (const auto& [variable, use] : variables)
@@ -42,13 +62,20 @@ bool is_loop_photon(const PhotonLoop& loop, const Expression& expression) {
 
 std::optional<double> find_constant(const Program& program, const PhotonLoop& loop, const Expression& expression) {
     const Expression& e = resolve_given(loop, expression);
+    if (e.type != Type::integer && e.type != Type::real)
+        return std::nullopt;
     if (e.kind == Expression::Kind::number)
         return e.type == Type::integer ? double(e.integer) : double(e.real);
     if (e.kind == Expression::Kind::variable && !loop.unset_reads.contains(e.variable))
         return program.variables[e.variable].exposed ? std::nullopt : program.variables[e.variable].constant;
     if (e.kind == Expression::Kind::unary && e.operation == Operator::negate)
         if (const std::optional<double> value = find_constant(program, loop, e.operands[0]))
-            return -*value;
+            return to_double(e.type, apply_unary(e.operation, e.operands[0].type, to_number(e.operands[0], *value)));
+    if (e.kind == Expression::Kind::binary && is_foldable(e.operation))
+        if (const std::optional<double> a = find_constant(program, loop, e.operands[0]))
+            if (const std::optional<double> b = find_constant(program, loop, e.operands[1]))
+                return to_double(e.type, apply_operator(e.operation, e.operands[0].type, to_number(e.operands[0], *a),
+                                                        to_number(e.operands[1], *b)));
     return std::nullopt;
 }
 

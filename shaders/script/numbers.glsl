@@ -39,6 +39,10 @@ int script_mod(int x, int y) {
     int rest = find_remainder(x, y);
     return rest != 0 && (rest < 0) != (y < 0) ? rest + y : rest;
 }
+int script_mod(int x, int y, uint by_zero) {
+    fault_if(y == 0, by_zero);
+    return script_mod(x, y);
+}
 
 // The operator %.
 int script_remainder(int x, int y, uint by_zero) {

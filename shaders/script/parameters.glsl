@@ -5,7 +5,7 @@
 float read_parameter(int id, int dimension) {
     uint column = uint(max(dimension, 3) - 3);
     float found = parameter_columns[column * settings.photon_count + uint(max(id, 0))];
-    return id < 0 || dimension < 0 ? NAN : found;
+    return id < 0 || dimension < 0 || is_nan(found) ? NAN : found; // what is unset is a NaN of its own
 }
 
 // What the present photon sets, until its iteration ends.

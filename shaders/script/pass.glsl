@@ -10,6 +10,10 @@ layout(push_constant) uniform Push { ScriptPass settings; };
 
 #define NAN uintBitsToFloat(0x7fc00000u)
 
+// Compilers that see a 0 take x · 0 and 0 / x for 0, and x / 0 for anything.
+#define ZERO uintBitsToFloat(settings.zero)
+float real(int x) { return float(x ^ int(settings.zero)); }
+
 int photon; // the loop's own
 
 uint fault_bits[FAULT_WORDS]; // a bit for each site of the pass

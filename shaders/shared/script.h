@@ -25,8 +25,8 @@ struct ScriptPass {
     uint flags;
     uint parameter_count; // declared
     uint lane_block;      // the block that lane_words begins with
+    uint zero;            // 0, which compilers do not know
     uint pad0;
-    uint pad1;
     vec4 origin;          // xyz: world position of the columns' (0, 0, 0)
 };
 
