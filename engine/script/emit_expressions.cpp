@@ -77,7 +77,7 @@ std::vector<Code> Emitter::emit_in_order(const std::vector<std::function<Code()>
     }
     for (std::size_t i = 0; i < parts.size(); ++i) {
         append(blocks[i]);
-        if (i + 1 < last_change)
+        if (i + 1 < last_change && !codes[i].is_stable)
             codes[i] = keep(types[i], codes[i]);
     }
     return codes;
@@ -92,11 +92,11 @@ std::vector<Code> Emitter::emit_numbers(const Expression& call, std::size_t firs
 
 Code Emitter::emit(const Expression& e) {
     // glslang computes constants in double precision.
-    if (e.kind == Expression::Kind::binary || e.kind == Expression::Kind::unary)
+    if (e.kind == Expression::Kind::binary || e.kind == Expression::Kind::unary || e.kind == Expression::Kind::builtin)
         if (const std::optional<double> value = find_constant(m_program, m_loop, e))
             return make_number(e.type, *value);
     switch (e.kind) {
-    case Expression::Kind::number: return make_number(e.type, e.type == Type::integer ? e.integer : e.real);
+    case Expression::Kind::number: return make_number(e.type, e.type == Type::integer ? double(e.integer) : double(e.real));
     case Expression::Kind::text: return {"0", Binding::primary, true};
     case Expression::Kind::variable: return emit_variable(e);
     case Expression::Kind::element: return emit_element(e);

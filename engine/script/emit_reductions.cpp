@@ -61,6 +61,14 @@ void Emitter::emit_element_choice(const ChoiceStatement& choice, const Code& pla
                    place.text + "), " +
                    emit_as(assignment->operands[0], variable(assignment->variable).type).text + ");");
     close();
+    if (variable(choice.decided).type != Type::integer)
+        return;
+    // Outside the array the candidate is compared with 0, and may win: then each assignment is reported, and dropped.
+    const std::string would_win = place.text + " < 0 && " + candidate.text + (choice.role == Role::least ? " < 0" : " > 0");
+    std::vector<const Expression*> assignments{choice.decision};
+    assignments.insert(assignments.end(), choice.payload.begin(), choice.payload.end());
+    for (const Expression* assignment : assignments)
+        write_line("fault_if(" + would_win + ", " + find_site(Fault::array_index, assignment->operands[1].span) + ");");
 }
 
 void Emitter::emit_choice(const ChoiceStatement& choice) {

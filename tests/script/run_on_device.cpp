@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "script/run_on_device.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <random>
@@ -116,9 +117,13 @@ void expect_same_reports(const Ran& device, const Ran& host) {
         expected.insert(describe(host.program, fault));
     EXPECT_EQ(found, expected);
     EXPECT_EQ(device.outputs.prints, host.outputs.prints);
-    ASSERT_EQ(device.outputs.histograms.size(), host.outputs.histograms.size());
+    std::vector<HistogramCounts> met = device.outputs.histograms;
+    std::erase_if(met, [](const HistogramCounts& h) { // a pass has those that no photon met, too
+        return h.below + h.above + h.non_finite == 0 && std::count(h.counts.begin(), h.counts.end(), 0u) == int(h.counts.size());
+    });
+    ASSERT_EQ(met.size(), host.outputs.histograms.size());
     for (std::size_t i = 0; i < host.outputs.histograms.size(); ++i) {
-        const HistogramCounts &a = device.outputs.histograms[i], &b = host.outputs.histograms[i];
+        const HistogramCounts &a = met[i], &b = host.outputs.histograms[i];
         EXPECT_EQ(a.counts, b.counts);
         EXPECT_EQ(a.below, b.below);
         EXPECT_EQ(a.above, b.above);

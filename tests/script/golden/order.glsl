@@ -41,30 +41,31 @@ void f_mark_1(int v_p, float v_amount) {
 
 void run_body() {
     // 7: near = getKNN(i, 8);
-    v_near = find_neighbors(0u, v_i, 0u);
+    ivec2 t1 = find_neighbors(0u, v_i, 0u);
+    v_near = t1;
     // 8: float far; int x__;
     v_far_is_set = false;
     // 9: k = i % 5;
     v_k = script_remainder(v_i, 5, 1u);
     // 10: x__ = k++ * 10 + k;
-    int t1 = v_k;
-    v_k = t1 + 1;
-    v_x_u = t1 * 10 + v_k;
+    int t2 = v_k;
+    v_k = t2 + 1;
+    v_x_u = t2 * 10 + v_k;
     // 11: if (x__ > 20 && (k += 2) < 6 || x__ == 3) far = near[k];
-    bool t2 = v_x_u > 20;
-    if (t2) {
+    bool t3 = v_x_u > 20;
+    if (t3) {
         v_k += 2;
-        t2 = v_k < 6;
+        t3 = v_k < 6;
     }
-    if (t2 || v_x_u == 3) {
+    if (t3 || v_x_u == 3) {
         v_far = real(read_neighbor(v_near, find_place(v_k, v_near.y, 2u)));
         v_far_is_set = true;
     }
     // 12: while (k-- > 0) { if (k == 2) continue; x__ += near[k % length(near)]; }
     for (;;) {
-        int t4 = v_k;
-        v_k = t4 - 1;
-        if (!(t4 > 0)) break;
+        int t5 = v_k;
+        v_k = t5 - 1;
+        if (!(t5 > 0)) break;
         if (!take_step(3u)) break;
         if (v_k == 2) {
             continue;

@@ -13,7 +13,7 @@
 #include "script/parameters.glsl"
 #include "script/colors.glsl"
 
-const float ZEROS_float_3[3] = float[3](0.0,0.0,0.0);
+#define ZEROS_float_3 float[3](ZERO, ZERO, ZERO)
 float v_gain; precise v_gain;
 int v_i;
 int v_m;
@@ -44,10 +44,12 @@ void run_body() {
         for (; v_k < 3 && take_turn(); v_k += 1) {
             // 12: a[k] = getPathVertex(i, j, k) - getPathVertex(i, j - 1, k);
             int t1 = find_place(v_k, 3, 0u);
-            if (t1 >= 0) v_a[t1] = pick_axis(read_vertex(own_path, find_place(v_j, int(own_path.y), 1u)), find_place(v_k, 3, 2u)) - pick_axis(read_vertex(own_path, find_place(v_j - 1, int(own_path.y), 3u)), find_place(v_k, 3, 4u));
+            precise float t2 = pick_axis(read_vertex(own_path, find_place(v_j, int(own_path.y), 1u)), find_place(v_k, 3, 2u)) - pick_axis(read_vertex(own_path, find_place(v_j - 1, int(own_path.y), 3u)), find_place(v_k, 3, 4u));
+            if (t1 >= 0) v_a[t1] = t2;
             // 13: b[k] = getPathVertex(i, j + 1, k) - getPathVertex(i, j, k);
-            int t2 = find_place(v_k, 3, 5u);
-            if (t2 >= 0) v_b[t2] = pick_axis(read_vertex(own_path, find_place(v_j + 1, int(own_path.y), 6u)), find_place(v_k, 3, 7u)) - pick_axis(read_vertex(own_path, find_place(v_j, int(own_path.y), 8u)), find_place(v_k, 3, 9u));
+            int t3 = find_place(v_k, 3, 5u);
+            precise float t4 = pick_axis(read_vertex(own_path, find_place(v_j + 1, int(own_path.y), 6u)), find_place(v_k, 3, 7u)) - pick_axis(read_vertex(own_path, find_place(v_j, int(own_path.y), 8u)), find_place(v_k, 3, 9u));
+            if (t3 >= 0) v_b[t3] = t4;
         }
         share_turns();
         // 15: total += acos(dot(a[0], a[1], a[2], b[0], b[1], b[2]) / (magnitude(a[0], a[1], a[2]) * magnitude(b[0
