@@ -171,16 +171,25 @@ void TreeBuilder::build_expose(const SyntaxStatement& syntax, std::vector<Statem
         m_diagnostics.add(codes::BAD_RANGE, syntax.name_span, "'" + syntax.name + "' is exposed already");
         return;
     }
-    Exposure exposure{syntax.low.value, syntax.high.value, syntax.step ? syntax.step->value : 0.0};
-    exposure.is_integer = syntax.low.is_integer && syntax.high.is_integer && syntax.step && syntax.step->is_integer;
-    exposure.span = syntax.name_span;
-    exposed.exposed = exposure;
-    // Its type is the range's: a float unless ends and step are integers.
-    m_draft.variable_types[*found] = exposure.is_integer ? WrittenType::integer : WrittenType::real;
+    exposed.exposed = make_exposure(syntax, m_draft.variable_types[*found]);
+    m_draft.variable_types[*found] = exposed.exposed->is_integer ? WrittenType::integer : WrittenType::real;
     m_draft.program.exposed.push_back(*found);
     Statement statement = make_statement(Statement::Kind::expose, syntax.span);
     statement.variable = *found;
     out.push_back(std::move(statement));
+}
+
+// A float; an integer if the ends and a step that is written are integers, or if it is declared as one.
+Exposure TreeBuilder::make_exposure(const SyntaxStatement& syntax, WrittenType declared) {
+    const bool has_whole_ends = syntax.low.is_integer && syntax.high.is_integer;
+    const bool has_whole_step = syntax.step && syntax.step->is_integer;
+    Exposure exposure{syntax.low.value, syntax.high.value, syntax.step ? syntax.step->value : 0.0};
+    exposure.is_integer = (has_whole_ends && has_whole_step) || declared == WrittenType::integer;
+    exposure.span = syntax.name_span;
+    if (declared == WrittenType::integer && (!has_whole_ends || (syntax.step && !has_whole_step)))
+        m_diagnostics.add(codes::BAD_RANGE, syntax.span,
+                          "'" + syntax.name + "' is declared 'int', so its range must be written in integers");
+    return exposure;
 }
 
 void TreeBuilder::check_exposure(const SyntaxStatement& syntax) {

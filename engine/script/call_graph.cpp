@@ -114,10 +114,6 @@ FunctionTable build_function_table(const SyntaxScript& script, Diagnostics& diag
                             "choose another name than " + std::string(builtin->signature));
         else if (!table.emplace(function.name, &function).second)
             diagnostics.add(codes::NAME_TAKEN, function.span, "a function '" + function.name + "' is defined already");
-        std::set<std::string> names;
-        for (const Declarator& parameter : function.parameters)
-            if (!names.insert(parameter.name).second)
-                diagnostics.add(codes::NAME_TAKEN, parameter.span, "two parameters are called '" + parameter.name + "'");
     }
     return table;
 }

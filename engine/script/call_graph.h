@@ -12,7 +12,7 @@ namespace photonloupe::script {
 
 using FunctionTable = std::map<std::string, const SyntaxFunction*>;
 
-// Reports names defined twice or taken by the language, and repeated parameters.
+// Reports names defined twice or taken by the language.
 FunctionTable build_function_table(const SyntaxScript& script, Diagnostics& diagnostics);
 
 // Reports every cycle of calls at the call that closes it. False: there is one.

@@ -218,8 +218,8 @@ private:
     }
 
     void read_assignment(Expression& assignment) {
-        for (Expression& operand : assignment.operands)
-            read(operand);
+        for (std::size_t i = assignment.operands.size(); i-- > 0;)
+            read(assignment.operands[i]); // the index first
         if (m_program.variables[assignment.variable].array_size > 0)
             return;
         if (assignment.operation != Operator::none)

@@ -83,7 +83,7 @@ private:
             return;
         }
         variable.default_value = found->second;
-        if (!(found->second >= exposure.low && found->second <= exposure.high))
+        if (exposure.low < exposure.high && !(found->second >= exposure.low && found->second <= exposure.high))
             m_diagnostics.add(codes::BAD_RANGE, exposure.span,
                               "the default of '" + variable.name + "', " + format_number(found->second) +
                                   ", is outside its range " + format_number(exposure.low) + " to " +

@@ -68,8 +68,8 @@ private:
             m_diagnostics.add(codes::NAME_TAKEN, call.operands[3].span,
                               "two parameters are called '" + call.operands[3].label + "'");
         const std::optional<int> dimension = find_dimension(m_program, call.operands[0]);
-        if (!dimension) {
-            m_declared.is_complete = false;
+        if (!dimension) { // a wrong one has been refused
+            m_declared.is_complete &= evaluate_constant(m_program, call.operands[0]).has_value();
             return;
         }
         const auto [place, is_new] = m_declared.calls.try_emplace(*dimension, &call);

@@ -69,8 +69,9 @@ private:
             expression.type = m_program.variables[expression.variable].type;
             return;
         case Kind::unary:
-            expression.type = expression.operation == Operator::logical_not ? Type::integer
-                                                                            : expression.operands[0].type;
+            expression.type = expression.operation == Operator::logical_not || is_unknown(expression.operands[0])
+                                  ? Type::integer
+                                  : expression.operands[0].type;
             return;
         case Kind::binary:
             return convert_binary(expression);
@@ -91,9 +92,9 @@ private:
         }
     }
 
-    // One type for both: real if either is.
+    // One type for both: real if either is. (What is unknown goes with anything.)
     static Type unify(Expression& a, Expression& b) {
-        if (a.type == Type::integer && b.type == Type::integer)
+        if (a.type != Type::real && b.type != Type::real)
             return Type::integer;
         make_real(a);
         make_real(b);
@@ -129,7 +130,7 @@ private:
         const Builtin& builtin = *call.builtin;
         bool is_integer = true;
         for (const Expression& argument : call.operands)
-            is_integer &= argument.type == Type::integer;
+            is_integer &= argument.type != Type::real;
         if (is_rounding(builtin.id)) {
             call.type = Type::integer;
             if (is_integer) {
@@ -140,7 +141,7 @@ private:
             return;
         }
         if (builtin.id == BuiltinId::pow) {
-            call.type = is_integer_power(call, call.operands[0].type == Type::integer) ? Type::integer : Type::real;
+            call.type = is_integer_power(call, call.operands[0].type != Type::real) ? Type::integer : Type::real;
         } else if (builtin.result == Result::as_arguments) {
             call.type = is_integer ? Type::integer : Type::real;
         } else if (builtin.result == Result::integer || builtin.result == Result::real) {

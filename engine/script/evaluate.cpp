@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "script/apply_operator.h"
 #include "script/interpreter.h"
 #include "script/reference_math.h"
 
@@ -12,25 +13,6 @@ namespace {
 constexpr float NOT_A_NUMBER = std::numeric_limits<float>::quiet_NaN();
 
 Number nothing(Type type) { return type == Type::integer ? make_integer(0) : make_real(NOT_A_NUMBER); }
-
-bool is_true(Type type, Number value) { return type == Type::integer ? value.integer != 0 : value.real != 0.0f; }
-
-template <class T> bool compare(Operator operation, T a, T b) {
-    switch (operation) {
-    case Operator::equal:
-        return a == b;
-    case Operator::not_equal:
-        return a != b;
-    case Operator::less:
-        return a < b;
-    case Operator::less_equal:
-        return a <= b;
-    case Operator::greater:
-        return a > b;
-    default:
-        return a >= b;
-    }
-}
 
 } // namespace
 
@@ -71,9 +53,11 @@ std::size_t Interpreter::find_place(const Expression& index, std::size_t count, 
 const std::vector<std::int32_t>& Interpreter::evaluate_list(const Expression& expression) {
     if (expression.kind == Expression::Kind::variable) {
         const VariableState& variable = m_state.variables[expression.variable];
-        if (!variable.is_set)
-            fault(Fault::unset_variable, expression);
-        return variable.list;
+        if (variable.is_set)
+            return variable.list;
+        fault(Fault::unset_variable, expression);
+        m_list.clear();
+        return m_list;
     }
     m_list = find_neighbors(expression);
     return m_list;
@@ -99,7 +83,7 @@ Number Interpreter::evaluate(const Expression& expression) {
         return place < variable.numbers.size() ? variable.numbers[place] : nothing(expression.type);
     }
     case Kind::list_item: {
-        const std::vector<std::int32_t> list = evaluate_list(expression.operands[0]);
+        const std::vector<std::int32_t>& list = evaluate_list(expression.operands[0]);
         const std::size_t place = find_place(expression.operands[1], list.size(), Fault::list_index);
         return place < list.size() ? make_integer(list[place]) : nothing(expression.type);
     }
@@ -114,7 +98,7 @@ Number Interpreter::evaluate(const Expression& expression) {
                                              : make_integer(convert_to_integer(value.real, expression));
     }
     case Kind::unary:
-        return evaluate_unary(expression);
+        return apply_unary(expression.operation, expression.operands[0].type, evaluate(expression.operands[0]));
     case Kind::binary:
         return evaluate_binary(expression);
     case Kind::conditional:
@@ -127,16 +111,6 @@ Number Interpreter::evaluate(const Expression& expression) {
         return assign(expression);
     }
     return nothing(expression.type);
-}
-
-Number Interpreter::evaluate_unary(const Expression& expression) {
-    const Expression& operand = expression.operands[0];
-    const Number value = evaluate(operand);
-    if (expression.operation == Operator::logical_not)
-        return make_integer(!is_true(operand.type, value));
-    if (operand.type == Type::integer)
-        return make_integer(subtract_wrapping(0, value.integer));
-    return make_real(-value.real);
 }
 
 Number Interpreter::evaluate_binary(const Expression& expression) {
@@ -153,23 +127,9 @@ Number Interpreter::evaluate_binary(const Expression& expression) {
 
 // `type` is that of both operands.
 Number Interpreter::compute(Operator operation, Type type, Number a, Number b, const Expression& site) {
-    const bool is_integer = type == Type::integer;
-    switch (operation) {
-    case Operator::add:
-        return is_integer ? make_integer(add_wrapping(a.integer, b.integer)) : make_real(a.real + b.real);
-    case Operator::subtract:
-        return is_integer ? make_integer(subtract_wrapping(a.integer, b.integer)) : make_real(a.real - b.real);
-    case Operator::multiply:
-        return is_integer ? make_integer(multiply_wrapping(a.integer, b.integer)) : make_real(a.real * b.real);
-    case Operator::divide:
-        return is_integer ? make_real(static_cast<float>(a.integer) / static_cast<float>(b.integer)) : make_real(a.real / b.real);
-    case Operator::modulo:
-        if (is_integer ? b.integer == 0 : b.real == 0.0f)
-            fault(Fault::modulo_by_zero, site);
-        return is_integer ? make_integer(compute_remainder(a.integer, b.integer)) : make_real(compute_remainder(a.real, b.real));
-    default:
-        return make_integer(is_integer ? compare(operation, a.integer, b.integer) : compare(operation, a.real, b.real));
-    }
+    if (operation == Operator::modulo && (type == Type::integer ? b.integer == 0 : b.real == 0.0f))
+        fault(Fault::modulo_by_zero, site);
+    return apply_operator(operation, type, a, b);
 }
 
 Number Interpreter::assign(const Expression& expression) {

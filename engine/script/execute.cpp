@@ -11,8 +11,8 @@
 namespace photonloupe::script {
 namespace {
 
-// Turns of unbounded loops between two looks at the clock.
-constexpr std::uint64_t STEPS_PER_LOOK = 1 << 16;
+// Turns and photons between two looks at the clock and at who may want to stop: a fraction of 0.2 s with long bodies.
+constexpr std::uint64_t STEPS_PER_LOOK = 4096;
 
 void collect_locals(const Program& program, const std::vector<Statement>& statements,
                     std::set<std::uint32_t>& locals) {
@@ -84,6 +84,8 @@ void Interpreter::run(const RunPass& run_pass) {
         m_outputs.stopped = "line " + std::to_string(place.line) + ": this loop took more than " +
                             std::to_string(m_settings.fuel) + " turns; the script was stopped there";
     }
+    if (m_outputs.columns.drop_behind_gap() && m_last_declared)
+        fault(Fault::declaration, *m_last_declared);
 }
 
 // From here on the variable has the value it was given from outside, or what the script assigned.
@@ -100,12 +102,28 @@ void Interpreter::expose(std::uint32_t index) {
     m_exposed[index] = state.numbers[0];
 }
 
+Number Interpreter::exposed_value(std::uint32_t index) const {
+    if (const auto met = m_exposed.find(index); met != m_exposed.end())
+        return met->second;
+    const Variable& variable = m_program.variables[index];
+    const auto given = m_settings.values.find(variable.name);
+    const double value = given != m_settings.values.end() ? given->second : variable.default_value.value_or(0);
+    return variable.type == Type::integer ? make_integer(static_cast<std::int32_t>(value))
+                                          : make_real(static_cast<float>(value));
+}
+
 void Interpreter::spend_fuel(const Statement& statement) {
     if (m_fuel == 0)
         throw OutOfFuel{statement.span};
     --m_fuel;
-    if (++m_steps % STEPS_PER_LOOK == 0)
-        m_progress.report("run script", 0.0);
+}
+
+void Interpreter::count_step() {
+    if (++m_steps % STEPS_PER_LOOK != 0)
+        return;
+    m_progress.report("run script", m_fraction);
+    if (m_iteration.loop && is_over_time())
+        throw OutOfTime();
 }
 
 Interpreter::Flow Interpreter::execute(const std::vector<Statement>& statements) {
@@ -164,6 +182,7 @@ Interpreter::Flow Interpreter::execute_loop(const Statement& statement) {
             return Flow::on;
         if (!statement.is_bounded)
             spend_fuel(statement);
+        count_step();
         const Flow flow = execute(statement.body);
         if (flow == Flow::leave)
             return Flow::on;

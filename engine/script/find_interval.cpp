@@ -16,6 +16,7 @@ using Kind = Expression::Kind;
 
 constexpr int MAX_DEPTH = 64;        // of variables given by variables given by …
 constexpr double MAX_VALUE = 1e9;    // far from where 32-bit integers wrap
+constexpr Interval ANYWHERE{-HUGE_VAL, HUGE_VAL};
 
 std::optional<Interval> accept(Interval interval) {
     const bool is_small = std::fabs(interval.low) <= MAX_VALUE && std::fabs(interval.high) <= MAX_VALUE;
@@ -99,12 +100,9 @@ std::optional<Interval> IntervalFinder::find_builtin(const Expression& call, int
     }
     case BuiltinId::min:
     case BuiltinId::max: {
-        const auto a = argument(0), b = argument(1);
-        if (!a || !b)
-            return std::nullopt;
-        return call.builtin->id == BuiltinId::min
-                   ? Interval{std::min(a->low, b->low), std::min(a->high, b->high)}
-                   : Interval{std::max(a->low, b->low), std::max(a->high, b->high)};
+        const Interval a = argument(0).value_or(ANYWHERE), b = argument(1).value_or(ANYWHERE);
+        return call.builtin->id == BuiltinId::min ? Interval{std::min(a.low, b.low), std::min(a.high, b.high)}
+                                                  : Interval{std::max(a.low, b.low), std::max(a.high, b.high)};
     }
     case BuiltinId::clamp: {
         const auto low = argument(1), high = argument(2);

@@ -12,7 +12,7 @@
 namespace photonloupe::script {
 
 struct Interval {
-    double low = 0, high = 0;
+    double low = 0, high = 0; // may be infinite
 };
 
 // Paths have this many vertices at most when their loops are counted; traced ones have 64 bounces. (A user's may be

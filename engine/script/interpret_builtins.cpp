@@ -148,8 +148,13 @@ void Interpreter::add_to_histogram(const Expression& expression) {
     }
     if (m_is_replay)
         return;
-    const std::size_t place =
-        m_outputs.find_histogram(operands[0].label, low, high, static_cast<std::uint32_t>(bins));
+    const auto bin_count = static_cast<std::uint32_t>(bins);
+    if (m_outputs.histograms.size() >= HISTOGRAM_LIMIT &&
+        !m_outputs.seek_histogram(operands[0].label, low, high, bin_count)) {
+        fault(Fault::histogram_range, expression);
+        return;
+    }
+    const std::size_t place = m_outputs.find_histogram(operands[0].label, low, high, bin_count);
     if (m_iteration.loop)
         m_iteration.samples.push_back({place, value});
     else
@@ -160,10 +165,12 @@ void Interpreter::print(const Expression& expression) {
     std::string line = expression.operands[0].label;
     for (std::size_t i = 1; i < expression.operands.size(); ++i)
         line += ' ' + format_number(expression.operands[i].type, evaluate(expression.operands[i]));
+    std::vector<std::string>& lines = m_iteration.loop ? m_iteration.prints : m_outputs.prints;
+    if (lines.size() >= (m_iteration.loop ? PRINT_LIMIT : UNIFORM_PRINT_LIMIT))
+        return;
     if (m_iteration.loop)
-        m_iteration.prints.push_back("photon " + std::to_string(m_iteration.photon) + ": " + line);
-    else
-        m_outputs.prints.push_back(std::move(line));
+        line = "photon " + std::to_string(m_iteration.photon) + ": " + line;
+    lines.push_back(std::move(line));
 }
 
 } // namespace photonloupe::script

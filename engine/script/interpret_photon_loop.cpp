@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "script/interpreter.h"
+#include "script/reference_math.h"
 
 namespace photonloupe::script {
 Interpreter::Flow Interpreter::execute_photon_loop(const Statement& statement) {
@@ -13,17 +14,20 @@ Interpreter::Flow Interpreter::execute_photon_loop(const Statement& statement) {
     m_loop_prints = 0;
     m_loop_start = std::chrono::steady_clock::now();
     report.is_parallel = loop.is_parallel && m_run_pass && m_run_pass(loop, *this, report);
+    Flow flow = Flow::on;
     if (!report.is_parallel) {
         const std::uint64_t fuel = m_fuel;
-        interpret_loop(loop, report);
+        flow = interpret_loop(loop, report);
         m_fuel = fuel;
         const auto spent = std::chrono::steady_clock::now() - m_loop_start;
         report.milliseconds += std::chrono::duration<double, std::milli>(spent).count();
     }
-    VariableState& index = m_state.variables[statement.variable];
-    index.numbers[0].integer = static_cast<std::int32_t>(m_photons.count);
-    index.is_set = true;
-    return Flow::on;
+    if (flow == Flow::on) {
+        VariableState& index = m_state.variables[statement.variable];
+        index.numbers[0].integer = static_cast<std::int32_t>(m_photons.count);
+        index.is_set = true;
+    }
+    return flow == Flow::give ? flow : Flow::on;
 }
 
 void Interpreter::begin_reductions(const PhotonLoop& loop) {
@@ -85,35 +89,59 @@ std::vector<std::uint32_t> Interpreter::combine_block(const std::vector<Lane>& l
     return combine_lanes(m_layout, words, static_cast<std::uint32_t>(width));
 }
 
-void Interpreter::interpret_loop(const PhotonLoop& loop, LoopReport& report) {
+Interpreter::Flow Interpreter::interpret_loop(const PhotonLoop& loop, LoopReport& report) {
+    bool is_steady = true; // else the body decides which photon comes next
+    visit_expressions(loop.statement->body, [&](const Expression& expression) {
+        is_steady &= expression.kind != Expression::Kind::assignment || expression.variable != loop.statement->variable;
+    });
     begin_reductions(loop);
+    const Flow flow = is_steady ? interpret_in_order(loop, report) : interpret_as_written(loop, report);
+    end_reductions();
+    return flow;
+}
+
+Interpreter::Flow Interpreter::interpret_in_order(const PhotonLoop& loop, LoopReport& report) {
     std::vector<std::vector<std::uint32_t>> blocks;
     std::vector<Lane> lanes;
-    for (std::uint32_t photon = 0; photon < m_photons.count; ++photon) {
+    Flow flow = Flow::on;
+    for (std::uint32_t photon = 0; photon < m_photons.count && flow == Flow::on; ++photon) {
         if (photon % REDUCTION_BLOCK == 0) {
-            m_progress.report("run script", static_cast<double>(photon) / m_photons.count);
-            check_time(report);
+            m_fraction = static_cast<double>(photon) / m_photons.count;
+            m_progress.report("run script", m_fraction);
             lanes.assign(REDUCTION_LANES, make_lane());
         }
         Lane& lane = lanes[photon % REDUCTION_LANES];
         swap_lane(lane);
-        const Flow flow = report.stopped.empty() ? iterate(loop, photon, report) : Flow::leave;
+        flow = iterate(loop, photon, report);
         swap_lane(lane);
-        const bool is_last = photon + 1 == m_photons.count || flow == Flow::leave;
+        const bool is_last = photon + 1 == m_photons.count || flow != Flow::on || !report.stopped.empty();
         if (m_layout.slots > 0 && (is_last || (photon + 1) % REDUCTION_BLOCK == 0))
             blocks.push_back(combine_block(lanes));
-        if (flow == Flow::leave)
+        if (!report.stopped.empty())
             break;
     }
     if (!blocks.empty())
         bring_back(m_layout, combine_blocks(m_layout, blocks), m_state);
-    end_reductions();
+    return flow;
+}
+
+// There are no blocks of consecutive photons: everything is done in the order in which it comes.
+Interpreter::Flow Interpreter::interpret_as_written(const PhotonLoop& loop, LoopReport& report) {
+    VariableState& index = m_state.variables[loop.statement->variable];
+    const auto count = static_cast<std::int32_t>(m_photons.count);
+    Flow flow = Flow::on;
+    std::int32_t next = 0;
+    while (next < count && flow == Flow::on && report.stopped.empty()) {
+        flow = iterate(loop, static_cast<std::uint32_t>(next), report);
+        next = flow == Flow::on ? add_wrapping(index.numbers[0].integer, 1) : next;
+    }
+    return flow;
 }
 
 Interpreter::Flow Interpreter::iterate(const PhotonLoop& loop, std::uint32_t photon, LoopReport& report) {
     m_iteration = {};
     m_iteration.loop = &loop;
-    m_iteration.photon = photon;
+    m_iteration.photon = photon < m_photons.count ? photon : NO_PHOTON;
     m_iteration.parameters.resize(PARAMETER_LIMIT);
     m_iteration.has_parameter.resize(PARAMETER_LIMIT);
     m_fuel = m_settings.fuel;
@@ -121,19 +149,27 @@ Interpreter::Flow Interpreter::iterate(const PhotonLoop& loop, std::uint32_t pho
     index.numbers[0].integer = static_cast<std::int32_t>(photon);
     index.is_set = true;
     const Moments before_2d = m_state.pca_2d, before_3d = m_state.pca_3d;
-    try {
-        const Flow flow = execute(loop.statement->body);
-        commit_iteration();
-        return flow == Flow::leave ? flow : Flow::on;
-    } catch (const OutOfFuel& out) {
+    const auto undo = [&] {
         take_back();
         if (loop.pca_2d == AccumulatorUse::reduction)
             m_state.pca_2d = before_2d;
         if (loop.pca_3d == AccumulatorUse::reduction)
             m_state.pca_3d = before_3d;
+        index.numbers[0].integer = static_cast<std::int32_t>(photon);
+    };
+    try {
+        count_step();
+        const Flow flow = execute(loop.statement->body);
+        commit_iteration();
+        return flow == Flow::next ? Flow::on : flow;
+    } catch (const OutOfFuel& out) {
+        undo();
         note_exhausted(report, photon, out.at);
-        return Flow::on;
+    } catch (const OutOfTime&) {
+        undo();
+        check_time(report);
     }
+    return Flow::on;
 }
 
 void Interpreter::take_back() {
@@ -153,9 +189,13 @@ void Interpreter::note_exhausted(LoopReport& report, std::uint32_t photon, Span 
         report.stopped = std::to_string(report.exhausted) + " photons ran out of steps; the rest were left out";
 }
 
-void Interpreter::check_time(LoopReport& report) {
+bool Interpreter::is_over_time() const {
     const auto spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - m_loop_start).count();
-    if (spent > m_settings.most_seconds)
+    return spent > m_settings.most_seconds;
+}
+
+void Interpreter::check_time(LoopReport& report) {
+    if (is_over_time())
         report.stopped = "it took longer than " + std::to_string(std::lround(m_settings.most_seconds)) +
                          " s; the rest of the photons were left out";
 }

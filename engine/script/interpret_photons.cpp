@@ -83,27 +83,34 @@ Number Interpreter::read_parameter(const Expression& expression) {
     return make_real(columns.read_parameter(index, photon));
 }
 
+// Its label, else the constant that names its dimension (GAMMA), else p3; never a name that another one has.
+std::string Interpreter::name_parameter(std::size_t dimension, const Expression& written, std::string label) const {
+    if (label.empty() && written.kind == Expression::Kind::variable &&
+        m_program.variables[written.variable].constant)
+        label = m_program.variables[written.variable].name;
+    const std::vector<DeclaredParameter>& declared = m_outputs.columns.declared();
+    for (std::size_t i = 0; i < declared.size(); ++i)
+        if (i + FIRST_DIMENSION != dimension && declared[i].name == label)
+            label.clear();
+    return label.empty() ? "p" + std::to_string(dimension) : label;
+}
+
 void Interpreter::declare_parameter(const Expression& expression) {
     const std::vector<Expression>& operands = expression.operands;
     const std::size_t dimension = find_place(operands[0], LAST_DIMENSION + 1, Fault::dimension_index);
-    const std::size_t next = FIRST_DIMENSION + m_outputs.columns.declared().size();
     DeclaredParameter parameter;
     parameter.low = evaluate_real(operands[1]);
     parameter.high = evaluate_real(operands[2]);
     parameter.name = operands.size() > 3 ? operands[3].label : std::string();
     parameter.is_periodic = operands.size() > 4 && evaluate_truth(operands[4]);
-    if (dimension < FIRST_DIMENSION || dimension > next || dimension > LAST_DIMENSION ||
+    if (dimension < FIRST_DIMENSION || dimension > LAST_DIMENSION ||
         !(parameter.low < parameter.high) || !std::isfinite(parameter.high - parameter.low)) {
         fault(Fault::declaration, expression);
         return;
     }
-    const Expression* named = &operands[0];
-    while (named->kind == Expression::Kind::convert)
-        named = &named->operands[0];
-    if (parameter.name.empty() && named->kind == Expression::Kind::variable)
-        parameter.name = m_program.variables[named->variable].name;
-    if (parameter.name.empty())
-        parameter.name = "p" + std::to_string(dimension);
+    parameter.name = name_parameter(dimension, operands[0], std::move(parameter.name));
+    if (dimension > FIRST_DIMENSION + m_outputs.columns.declared().size())
+        m_last_declared = &expression;
     m_outputs.columns.declare(static_cast<std::uint32_t>(dimension), std::move(parameter));
 }
 

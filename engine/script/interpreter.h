@@ -35,7 +35,8 @@ public:
     ScriptState& state() { return m_state; }
 
     // Of an exposed variable, where it was exposed.
-    Number exposed_value(std::uint32_t variable) const { return m_exposed.at(variable); }
+    // Where no run came to it, the value it would have had.
+    Number exposed_value(std::uint32_t variable) const;
 
     // Runs the body of a loop that reduces nothing for some photons.
     void iterate_photons(const PhotonLoop& loop, const std::vector<std::uint32_t>& photons, LoopReport& report);
@@ -51,6 +52,7 @@ private:
     struct OutOfFuel { // thrown: ends a photon's iteration, or the script
         Span at;
     };
+    struct OutOfTime {}; // thrown: ends a photon's iteration and its loop
 
     // What one iteration of a photon loop has done and may have to take back.
     struct Iteration {
@@ -88,10 +90,14 @@ private:
     Flow execute(const Statement& statement);
     Flow execute_loop(const Statement& statement);
     void spend_fuel(const Statement& statement);
+    void count_step();
 
     // photon loops (interpret_photon_loop.cpp)
     Flow execute_photon_loop(const Statement& statement);
-    void interpret_loop(const PhotonLoop& loop, LoopReport& report);
+    Flow interpret_loop(const PhotonLoop& loop, LoopReport& report);
+    Flow interpret_in_order(const PhotonLoop& loop, LoopReport& report);
+    Flow interpret_as_written(const PhotonLoop& loop, LoopReport& report);
+    bool is_over_time() const;
     Flow iterate(const PhotonLoop& loop, std::uint32_t photon, LoopReport& report);
     void take_back();
     void begin_reductions(const PhotonLoop& loop);
@@ -107,7 +113,6 @@ private:
     Number evaluate(const Expression& expression);
     float evaluate_real(const Expression& expression);
     bool evaluate_truth(const Expression& expression);
-    Number evaluate_unary(const Expression& expression);
     Number evaluate_binary(const Expression& expression);
     Number assign(const Expression& expression);
     Number call_function(const Expression& expression);
@@ -126,6 +131,7 @@ private:
     Number read_pca(const Expression& expression);
     void change_pca(const Expression& expression);
     void declare_parameter(const Expression& expression);
+    std::string name_parameter(std::size_t dimension, const Expression& written, std::string label) const;
     void set_parameter(const Expression& expression);
     void set_color(const Expression& expression);
     void add_to_histogram(const Expression& expression);
@@ -149,7 +155,9 @@ private:
     std::vector<bool> m_is_reduced; // by variable
     std::vector<std::vector<std::uint32_t>> m_choice_photons; // by variable: who gave a least or greatest, in this lane
     std::uint64_t m_fuel = 0;
-    std::uint64_t m_steps = 0; // since the clock was looked at
+    std::uint64_t m_steps = 0; // turns of loops and photons
+    double m_fraction = 0;     // of the present loop's photons
+    const Expression* m_last_declared = nullptr; // the call that left a gap, if there is one at the end
     Number m_given{};      // what `return` brings
     bool m_has_given = false;
     std::vector<std::int32_t> m_list; // of a list that is used where it is made

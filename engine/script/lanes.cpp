@@ -87,6 +87,16 @@ void set_payloads(const LaneLayout& layout, std::span<const std::uint32_t> total
     }
 }
 
+// What was pushed before the loop was pushed first, whichever photon pushed it.
+Moments append_moments(const Moments& before, const Moments& total) {
+    Moments merged = merge_moments(before, total);
+    if (before.count > 0) {
+        merged.first_photon = before.first_photon;
+        std::ranges::copy(before.first_point, merged.first_point);
+    }
+    return merged;
+}
+
 } // namespace
 
 LaneLayout lay_out_lanes(const Program& program, const PhotonLoop& loop) {
@@ -161,9 +171,9 @@ void bring_back(const LaneLayout& layout, std::span<const std::uint32_t> total, 
         }
     }
     if (layout.pca_2d)
-        state.pca_2d = merge_moments(state.pca_2d, load_moments(total.subspan(*layout.pca_2d)));
+        state.pca_2d = append_moments(state.pca_2d, load_moments(total.subspan(*layout.pca_2d)));
     if (layout.pca_3d)
-        state.pca_3d = merge_moments(state.pca_3d, load_moments(total.subspan(*layout.pca_3d)));
+        state.pca_3d = append_moments(state.pca_3d, load_moments(total.subspan(*layout.pca_3d)));
 }
 
 void store_moments(const Moments& moments, std::span<std::uint32_t> words) {

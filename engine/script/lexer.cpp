@@ -185,10 +185,11 @@ private:
         do {
             m_at += decode_utf8(m_text, m_at).length;
         } while (m_at < m_text.size() && !is_expected(m_text[m_at]));
-        m_diagnostics.add(codes::UNEXPECTED_CHARACTER, span_from(begin), "unexpected " + describe(begin, first),
-                          std::move(note));
+        m_diagnostics.add(codes::UNEXPECTED_CHARACTER, span_from(begin), "unexpected " + describe(begin, first), note);
         if (first.code_point == '#')
             m_at = std::min(m_text.find_first_of("\r\n", m_at), m_text.size());
+        else if (note.empty() || first.code_point == 0x2212u) // where an operator may have been meant
+            add(TokenKind::unsupported, begin).is_reported = true;
     }
 
     static bool is_expected(char c) {

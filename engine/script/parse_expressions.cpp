@@ -64,17 +64,21 @@ SyntaxExpression Parser::join(Kind kind, Span span, std::vector<SyntaxExpression
 }
 
 SyntaxExpression Parser::parse_expression() {
-    SyntaxExpression target = parse_conditional();
-    const AssignmentOperator* const found = find_operator(ASSIGNMENT, peek());
-    if (!found)
-        return target;
-    take();
-    const Nesting nesting(*this);
-    SyntaxExpression value = parse_expression();
-    const Span span{target.span.begin, value.span.end};
-    SyntaxExpression assignment = join(Kind::assignment, span, gather(std::move(target), std::move(value)));
-    assignment.operation = found->operation;
-    return assignment;
+    std::vector<SyntaxExpression> targets;
+    std::vector<Operator> operations;
+    SyntaxExpression value = parse_conditional();
+    while (const AssignmentOperator* const found = find_operator(ASSIGNMENT, peek())) {
+        take();
+        targets.push_back(std::move(value));
+        operations.push_back(found->operation);
+        value = parse_conditional();
+    }
+    for (; !targets.empty(); targets.pop_back(), operations.pop_back()) { // a = b = c is a = (b = c)
+        const Span span{targets.back().span.begin, value.span.end};
+        value = join(Kind::assignment, span, gather(std::move(targets.back()), std::move(value)));
+        value.operation = operations.back();
+    }
+    return value;
 }
 
 SyntaxExpression Parser::parse_conditional() {
@@ -230,7 +234,7 @@ SyntaxExpression Parser::parse_call(const Token& name) {
 void Parser::refuse_operator() {
     const Token& token = peek();
     m_script.is_complete = false;
-    if (m_has_given_up)
+    if (m_has_given_up || token.is_reported)
         return;
     const std::string spelling(token.spelling);
     std::string note;

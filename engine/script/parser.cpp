@@ -121,7 +121,9 @@ void Parser::skip_statement() {
             ++depth;
         else if (token.is("}") || token.is(")"))
             depth = depth > 0 ? depth - 1 : 0;
-        else if (token.is(";") && depth == 0) {
+        else if (!token.is(";"))
+            continue;
+        if (depth == 0 && (token.is("}") || token.is(";"))) {
             take();
             return;
         }

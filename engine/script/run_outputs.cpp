@@ -38,7 +38,7 @@ const char* describe_fault(Fault kind) {
     case Fault::query:
         return "k is not 1 to 1,000, or beta is negative";
     default:
-        return "a histogram's bounds do not ascend, or its bins are not 1 to 4,096";
+        return "a histogram's bounds do not ascend, its bins are not 1 to 4,096, or there are more than 256 histograms";
     }
 }
 
@@ -55,12 +55,19 @@ void HistogramCounts::add(float value) {
     }
 }
 
-std::size_t RunOutputs::find_histogram(const std::string& name, float low, float high, std::uint32_t bins) {
+std::optional<std::size_t> RunOutputs::seek_histogram(const std::string& name, float low, float high,
+                                                      std::uint32_t bins) const {
     for (std::size_t i = 0; i < histograms.size(); ++i) {
         const HistogramCounts& known = histograms[i];
         if (known.name == name && known.low == low && known.high == high && known.counts.size() == bins)
             return i;
     }
+    return std::nullopt;
+}
+
+std::size_t RunOutputs::find_histogram(const std::string& name, float low, float high, std::uint32_t bins) {
+    if (const std::optional<std::size_t> known = seek_histogram(name, low, high, bins))
+        return *known;
     histograms.push_back({name, low, high, std::vector<std::uint32_t>(bins)});
     return histograms.size() - 1;
 }

@@ -15,6 +15,8 @@
 namespace photonloupe::script {
 
 constexpr std::uint32_t PRINT_LIMIT = 20; // lines of a photon loop
+constexpr std::size_t UNIFORM_PRINT_LIMIT = 10'000; // lines of uniform code
+constexpr std::size_t HISTOGRAM_LIMIT = 256;        // of other names, bounds or bins: a loop may compute them
 constexpr std::uint32_t NO_PHOTON = 0xffffffffu;
 
 struct HistogramCounts {
@@ -54,7 +56,9 @@ struct RunOutputs {
     std::vector<LoopReport> loops; // in the order first run
     std::string stopped;           // why the script ended early; empty: it did not
 
-    // Its place among the histograms.
+    // Its place among the histograms, if it is there.
+    std::optional<std::size_t> seek_histogram(const std::string& name, float low, float high, std::uint32_t bins) const;
+    // Its place among the histograms, where it is put if it is not there.
     std::size_t find_histogram(const std::string& name, float low, float high, std::uint32_t bins);
     LoopReport& find_loop(const Statement& loop);
     // A photon counts once for each site it meets: `photon` must not be lower than at the call before for that site.

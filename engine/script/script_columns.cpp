@@ -41,6 +41,20 @@ void ScriptColumns::declare(std::uint32_t dimension, DeclaredParameter parameter
     m_host_is_newer = true;
 }
 
+bool ScriptColumns::drop_behind_gap() {
+    const auto gap = std::find_if(m_declared.begin(), m_declared.end(),
+                                  [](const DeclaredParameter& parameter) { return !(parameter.low < parameter.high); });
+    if (gap == m_declared.end())
+        return false;
+    if (m_device_is_newer)
+        take_to_host();
+    m_declared.erase(gap, m_declared.end());
+    m_parameters.resize(std::min(m_parameters.size(), m_declared.size()));
+    m_host_is_newer = m_host_is_newer || m_is_on_host;
+    ++m_version;
+    return true;
+}
+
 float ScriptColumns::read_parameter(std::size_t index, std::uint64_t photon) {
     if (!m_is_on_host || m_device_is_newer)
         take_to_host();

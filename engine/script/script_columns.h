@@ -32,6 +32,9 @@ public:
     // Replaces the dimension's parameter if there is one: it is unset again.
     void declare(std::uint32_t dimension, DeclaredParameter parameter);
     const std::vector<DeclaredParameter>& declared() const { return m_declared; } // dimensions from 3 on
+    // Dimensions behind the first that is not declared (a declaration may come before that of a lower one) are dropped.
+    // True: there were such.
+    bool drop_behind_gap();
 
     float read_parameter(std::size_t index, std::uint64_t photon); // index: dimension - 3
     void write_parameter(std::size_t index, std::uint64_t photon, float value);

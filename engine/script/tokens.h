@@ -18,6 +18,7 @@ struct Token {
     TokenKind kind = TokenKind::end;
     Span span;
     std::string_view spelling;  // as written; empty at the end
+    bool is_reported = false;   // an unsupported one that the lexer has complained about
     std::string label;          // of a text: without quotes, escapes resolved
     bool is_integer = false;    // of a number: written without point and exponent, and no larger than 2^31
     std::uint32_t integer = 0;  // then its value: up to 2^31 in decimal, any 32 bits in hexadecimal

@@ -57,6 +57,7 @@ private:
     void build_loop(const SyntaxStatement& syntax, std::vector<Statement>& out);
     void build_jump(const SyntaxStatement& syntax, std::vector<Statement>& out);
     void build_expose(const SyntaxStatement& syntax, std::vector<Statement>& out);
+    Exposure make_exposure(const SyntaxStatement& syntax, WrittenType declared);
     void check_exposure(const SyntaxStatement& syntax);
     Statement make_statement(Statement::Kind kind, Span span);
 

@@ -36,7 +36,7 @@ HostPhotons make_photons(std::uint32_t count, std::uint32_t vertices) {
     return photons;
 }
 
-Ran interpret(const std::string& text, HostPhotons photons, const RunSettings& settings) {
+Ran interpret(const std::string& text, HostPhotons photons, const RunSettings& settings, const Progress& progress) {
     Ran ran;
     Diagnostics diagnostics;
     ran.program = check_script({"test.photon", text}, diagnostics);
@@ -48,8 +48,7 @@ Ran interpret(const std::string& text, HostPhotons photons, const RunSettings& s
         return ran;
     }
     ran.outputs.columns = ScriptColumns(photons.count);
-    const Progress quiet;
-    Interpreter interpreter(ran.program, plan, photons, ran.outputs, settings, quiet);
+    Interpreter interpreter(ran.program, plan, photons, ran.outputs, settings, progress);
     interpreter.run();
     ran.state = interpreter.state();
     return ran;

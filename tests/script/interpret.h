@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/progress.h"
 #include "script/host_photons.h"
 #include "script/run_outputs.h"
 #include "script/run_settings.h"
@@ -31,6 +32,7 @@ private:
     std::uint32_t find(const std::string& name) const;
 };
 
-Ran interpret(const std::string& text, HostPhotons photons = make_photons(8), const RunSettings& settings = {});
+Ran interpret(const std::string& text, HostPhotons photons = make_photons(8), const RunSettings& settings = {},
+              const Progress& progress = {});
 
 } // namespace photonloupe::script::tests

@@ -175,6 +175,61 @@ TEST(InterpreterPhotons, pca_of_a_line_lies_along_it_towards_the_first_point) {
     EXPECT_EQ(ran.integer("none"), 0);
 }
 
+TEST(InterpreterPhotons, the_first_point_is_the_first_pushed_whoever_pushed_it) {
+    const std::string axis = "decomposePCA2D(); u = getPCAEigenvector(0, X);";
+    EXPECT_EQ(interpret(each("pushPCA2D(i + 1, 0);") + axis).real("u"), 1.0f);
+    EXPECT_EQ(interpret("pushPCA2D(-3, 0);" + each("pushPCA2D(i + 1, 0);") + axis).real("u"), -1.0f);
+    EXPECT_EQ(interpret(each("if (i == 5) pushPCA2D(-1, 0);") + each("pushPCA2D(i + 1, 0);") + axis).real("u"), -1.0f);
+}
+
+TEST(InterpreterPhotons, parameters_are_named_by_label_constant_or_number) {
+    const auto name_all = [](const std::string& text) {
+        std::string names;
+        const Ran ran = interpret(text);
+        for (const DeclaredParameter& parameter : ran.outputs.columns.declared())
+            names += parameter.name + ' ';
+        return names;
+    };
+    EXPECT_EQ(name_all("U = 3; declarePhotonParameter(U, 0, 1); declarePhotonParameter(4, 0, 1, \"angle\");"), "U angle ");
+    EXPECT_EQ(name_all("for (d = 3; d < 6; d++) declarePhotonParameter(d, 0, 1);"), "p3 p4 p5 ");
+    EXPECT_EQ(name_all("f(3); f(4); function f(d) { declarePhotonParameter(d, -1, 1); }"), "d p4 ");
+    EXPECT_EQ(name_all("for (d = 3; d < 5; d++) declarePhotonParameter(d, 0, 1, \"same\");"), "same p4 ");
+}
+
+TEST(InterpreterPhotons, parameters_are_declared_in_any_order_but_without_gaps) {
+    Ran ran = interpret("declarePhotonParameter(4, 0, 2); declarePhotonParameter(3, 0, 1);" +
+                        each("setPhotonParameter(i, 4, i); setPhotonParameter(i, 3, -i);"));
+    ASSERT_EQ(ran.outputs.columns.declared().size(), 2u);
+    EXPECT_EQ(ran.outputs.columns.declared()[1].high, 2.0f);
+    EXPECT_EQ(ran.outputs.columns.read_parameter(0, 3), -3.0f);
+    EXPECT_EQ(ran.outputs.columns.read_parameter(1, 3), 3.0f);
+    const Ran gap = interpret("n = getNumPhotons(); declarePhotonParameter(n - 5, 0, 1); declarePhotonParameter(n, 0, 1);");
+    EXPECT_EQ(gap.outputs.columns.declared().size(), 1u);
+    EXPECT_TRUE(gap.find_fault(Fault::declaration));
+}
+
+TEST(InterpreterPhotons, bounds_known_at_run_time_only_are_checked_there) {
+    const Ran ran = interpret("n = getNumPhotons(); declarePhotonParameter(3, n, n);");
+    EXPECT_EQ(ran.outputs.columns.declared().size(), 0u);
+    EXPECT_TRUE(ran.find_fault(Fault::declaration));
+}
+
+TEST(InterpreterPhotons, a_list_that_may_be_unset_is_empty_and_reported) {
+    const Ran ran = interpret("a = f(1); b = f(-1); function f(x) { if (x > 0) nn = getKNN(0, 3); return length(nn); }");
+    EXPECT_EQ(ran.integer("a"), 3);
+    EXPECT_EQ(ran.integer("b"), 0);
+    EXPECT_TRUE(ran.find_fault(Fault::unset_variable));
+}
+
+TEST(InterpreterPhotons, reports_stay_small_whatever_a_script_does) {
+    const Ran ran = interpret("for (j = 0; j < 20000; j++) { print(\"line\", j); histogram(\"h\", 0, 0, j + 1, 4096); }");
+    EXPECT_EQ(ran.outputs.prints.size(), UNIFORM_PRINT_LIMIT);
+    EXPECT_EQ(ran.outputs.histograms.size(), HISTOGRAM_LIMIT);
+    EXPECT_TRUE(ran.find_fault(Fault::histogram_range));
+    const Ran loop = interpret(each("for (j = 0; j < 100; j++) print(\"line\", j);"));
+    EXPECT_EQ(loop.outputs.prints.size(), PRINT_LIMIT);
+}
+
 TEST(InterpreterPhotons, points_pushed_by_all_photons_are_one_set) {
     const Ran ran = interpret("resetPCA3D();" + each("pushPCA3D(i, 2 * i, 0);") +
                               "ok = decomposePCA3D(); l = getPCAEigenvalue(0); u = getPCAEigenvector(0, Y); m = getPCAMean(1);");

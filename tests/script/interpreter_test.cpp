@@ -119,6 +119,8 @@ TEST(Interpreter, exposed_variables_take_the_value_they_are_given) {
     EXPECT_EQ(interpret(text, make_photons(1), settings).real("b"), 140.0f);
     settings.values["alpha"] = 1001;
     EXPECT_THROW(interpret(text, make_photons(1), settings), Error);
+    settings.values["alpha"] = std::nan("");
+    EXPECT_THROW(interpret(text, make_photons(1), settings), Error);
     settings.values = {{"beta", 1.0}};
     EXPECT_THROW(interpret(text, make_photons(1), settings), Error);
 }
