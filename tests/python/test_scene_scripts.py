@@ -29,9 +29,12 @@ TOLERANCE = dict.fromkeys(SETTING, (2e-6, 4e-6)) | {
     "ppca": (1e-5, 1e-5),  # eigenvectors of eigenvalues near each other
     "signature": (0.0, 1e-6),
     "primal_trajectory": (3e-5, 1e-5),  # opposite to the mean direction the plane is torn
+    "incident_trajectory": (1e-5, 4e-6),  # the same, where light arrives from behind
     "trajectory_color": (2e-6, 1e-4),  # the same
     "kmeans_incidence": (0.0, 1e-6),
 }
+# Photons that may differ by more: one half-way between two clusters, where the rounding decides.
+ODD = {"kmeans_incidence": 1e-3}
 # Every slider, away from its default.
 OTHERS: dict[str, dict[str, float]] = {
     "tortuosity": {"turns": 3},
@@ -97,8 +100,10 @@ def check_twin(name: str, run: pl.ScriptRun, twin: Twin) -> None:
     assert run.colors is not None
     np.testing.assert_array_equal(np.isnan(run.parameters), np.isnan(twin.parameters))
     np.testing.assert_array_equal(np.isnan(run.colors), np.isnan(twin.colors))
-    assert np.nanmax(subtract(name, run.parameters.astype(np.float64), twin.parameters)) <= parameters
-    assert np.nanmax(np.abs(run.colors - twin.colors)) <= colors
+    off = subtract(name, run.parameters.astype(np.float64), twin.parameters) > parameters
+    tinted = np.abs(run.colors - twin.colors) > colors
+    assert np.mean(off.any(axis=1)) <= ODD.get(name, 0.0)
+    assert np.mean(tinted.any(axis=1)) <= ODD.get(name, 0.0)
 
 
 def read_print(run: pl.ScriptRun, text: str) -> list[float]:
