@@ -56,6 +56,7 @@ struct BodyAccesses {
 };
 
 // Statements in `ordinary` are not taken for choices.
-BodyAccesses collect_accesses(const Program& program, const Statement& loop, const std::set<const Statement*>& ordinary);
+BodyAccesses collect_accesses(const Program& program, const Statement& loop,
+                              const std::set<const Statement*>& ordinary);
 
 } // namespace photonloupe::script

@@ -8,10 +8,14 @@ namespace {
 
 const char* find_sign(Operator operation) {
     switch (operation) {
-    case Operator::add: return " + ";
-    case Operator::subtract: return " - ";
-    case Operator::multiply: return " * ";
-    default: return " / ";
+    case Operator::add:
+        return " + ";
+    case Operator::subtract:
+        return " - ";
+    case Operator::multiply:
+        return " * ";
+    default:
+        return " / ";
     }
 }
 

@@ -195,7 +195,8 @@ std::string Emitter::compose_loads() const {
             text += "    " + name + " = " + (v.type == Type::integer ? "int(" : "uintBitsToFloat(") +
                     word(slot.first_word) + ");\n";
     }
-    const auto load = [&](const std::optional<std::uint32_t>& at, const std::string& name, const std::string& function) {
+    const auto load = [&](const std::optional<std::uint32_t>& at, const std::string& name,
+                          const std::string& function) {
         if (at)
             text += "    " + name + " = " + function + "(" + std::to_string(*at) + "u);\n";
     };

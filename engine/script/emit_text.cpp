@@ -19,7 +19,8 @@ const char* name_type(Type type) {
 
 // A name or a number.
 bool is_name(const std::string& text) {
-    return std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '.'; });
+    return std::all_of(text.begin(), text.end(),
+                       [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '.'; });
 }
 
 } // namespace

@@ -172,8 +172,10 @@ std::optional<ReductionStep> match_reduction(const Program& program, const Expre
     case Operator::add:
     case Operator::subtract:
         return ReductionStep{Role::sum, e.variable, &e.operands[0], find_index(e), e.operation == Operator::subtract};
-    case Operator::none: return match_written_out(program, e);
-    default: return std::nullopt;
+    case Operator::none:
+        return match_written_out(program, e);
+    default:
+        return std::nullopt;
     }
 }
 

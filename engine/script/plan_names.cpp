@@ -105,11 +105,15 @@ std::optional<double> find_constant(const Program& program, const PhotonLoop& lo
     if (e.kind == Expression::Kind::number)
         return e.type == Type::integer ? double(e.integer) : double(e.real);
     switch (e.kind) {
-    case Expression::Kind::variable: return find_constant_variable(program, loop, e.variable);
+    case Expression::Kind::variable:
+        return find_constant_variable(program, loop, e.variable);
     case Expression::Kind::unary:
-    case Expression::Kind::binary: return find_constant_operation(program, loop, e);
-    case Expression::Kind::builtin: return find_constant_call(program, loop, e);
-    default: return std::nullopt;
+    case Expression::Kind::binary:
+        return find_constant_operation(program, loop, e);
+    case Expression::Kind::builtin:
+        return find_constant_call(program, loop, e);
+    default:
+        return std::nullopt;
     }
 }
 

@@ -77,27 +77,33 @@ TEST(Emit, counters_along_the_photons_path_are_not_checked) {
 
 TEST(Emit, names_that_glsl_reserves_are_harmless) {
     emit(in_loop("vec3 = 2; main = 3; gl_Position = 4; photon = 5; a__b = 6; _ = 7; a_ub = 8; __ = 9; settings = 10; "
-                 "ZERO = 11; layout = 12; x_is_set = 13; texture = 14; setPhotonParameter(i, 3, vec3 + main + gl_Position + "
+                 "ZERO = 11; layout = 12; x_is_set = 13; texture = 14; setPhotonParameter(i, 3, vec3 + main + "
+                 "gl_Position + "
                  "photon + a__b + _ + a_ub + __ + settings + ZERO + layout + x_is_set + texture);"));
-    emit("function run_body(a__) { return a__; } function main(x) { return run_body(x); } function push_point() { return 3; }\n" +
+    emit("function run_body(a__) { return a__; } function main(x) { return run_body(x); } function push_point() { "
+         "return 3; }\n" +
          in_loop("setPhotonParameter(i, 3, main(i) + run_body(2) + push_point());"));
     emit(in_loop(std::string(3000, 'x') + " = 1; " + std::string(2999, 'x') + " = 2; setPhotonParameter(i, 3, " +
                  std::string(3000, 'x') + ");"));
 }
 
 TEST(Emit, comments_hold_nothing_that_matters) {
-    emit(in_loop("x = 1; /* \\\n*/ y = 2; // #include \"nothing\" \\\\ \t \x01 é */ \\\n setPhotonParameter(i, 3, x); // ?\n z = 3; "
+    emit(in_loop("x = 1; /* \\\n*/ y = 2; // #include \"nothing\" \\\\ \t \x01 é */ \\\n setPhotonParameter(i, 3, "
+                 "x); // ?\n z = 3; "
                  "// \\\n print(\"\\\\ */ // \\\" \", x);"));
 }
 
 TEST(Emit, deep_scripts_compile) {
     emit(in_loop("x = " + repeat("(1 + ", 55) + "i" + repeat(")", 55) + "; setPhotonParameter(i, 3, x);"));
     emit(in_loop("x = i" + repeat(" + i * 0.5", 120) + "; setPhotonParameter(i, 3, x);"));
-    emit(in_loop("x = i" + repeat(" && i", 200) + "; y = i" + repeat(" || (x = i) > 3", 100) + "; setPhotonParameter(i, 3, x + y);"));
+    emit(in_loop("x = i" + repeat(" && i", 200) + "; y = i" + repeat(" || (x = i) > 3", 100) + "; "
+                                        "setPhotonParameter(i, 3, x + y);"));
     emit(in_loop("x = " + repeat("i > 3 ? 1.5 : ", 60) + "2; setPhotonParameter(i, 3, x);"));
     emit(in_loop("x = " + repeat("sin(", 50) + "i" + repeat(")", 50) + "; setPhotonParameter(i, 3, x);"));
-    emit(in_loop("float a[3]; x = " + repeat("a[0 + ", 40) + "i % 3" + repeat("]", 40) + "; setPhotonParameter(i, 3, x);"));
-    emit(in_loop("x = 0; " + repeat("for (j = 0; j < 2; j++) {", 50) + "x += 1;" + repeat("}", 50) + " setPhotonParameter(i, 3, x);"));
+    emit(in_loop("float a[3]; x = " + repeat("a[0 + ", 40) + "i % 3" + repeat("]", 40) + "; setPhotonParameter(i, "
+                                        "3, x);"));
+    emit(in_loop("x = 0; " + repeat("for (j = 0; j < 2; j++) {", 50) + "x += 1;" + repeat("}", 50) + " "
+                                        "setPhotonParameter(i, 3, x);"));
     emit(in_loop(repeat("if (i > 3) {", 55) + "x = 1;" + repeat("}", 55)));
     std::string arms = "if (i == 0) x = 0;";
     for (int arm = 1; arm < 200; ++arm)
@@ -106,7 +112,8 @@ TEST(Emit, deep_scripts_compile) {
 }
 
 TEST(Emit, numbers_are_read_back_bit_by_bit) {
-    const EmittedPass pass = emit(in_loop("x = i * 0.1 + i * 3.4028234e38 + i * 1e-45 + i * 1e-38 + i * 16777217 + i * 1e10 + i * 0x7fffffff; "
+    const EmittedPass pass = emit(in_loop("x = i * 0.1 + i * 3.4028234e38 + i * 1e-45 + i * 1e-38 + i * 16777217 + "
+                                        "i * 1e10 + i * 0x7fffffff; "
                                           "y = i - 2147483647 - 1; setPhotonParameter(i, 3, x + y);"));
     EXPECT_TRUE(has(pass, "* 0.1"));
     EXPECT_TRUE(has(pass, "3.4028235e+38"));
@@ -115,7 +122,8 @@ TEST(Emit, numbers_are_read_back_bit_by_bit) {
 
 TEST(Emit, a_pass_that_grows_too_long_is_refused) {
     const std::string line = "x = sin(i * 0.5) + cos(i * 0.25) + x * 2 + getPathVertex(i, i % 3, X);";
-    const auto script = compile_script({"test", "for (i = 0; i < getNumPhotons(); i++) { x = 0; " + repeat(line, 800) + "}"});
+    const auto script = compile_script({"test", "for (i = 0; i < getNumPhotons(); i++) { x = 0; "
+                                        "" + repeat(line, 800) + "}"});
     ASSERT_TRUE(script->has_errors);
     EXPECT_EQ(script->diagnostics[0].code, "E072");
     EXPECT_NE(script->diagnostics[0].note.find("split"), std::string::npos);
@@ -130,7 +138,8 @@ TEST(Emit, exposed_values_are_no_part_of_the_text) {
 }
 
 TEST(Emit, constants_are_literals) {
-    const EmittedPass pass = emit("GAMMA = 3; k = 7;\n" + in_loop("setPhotonParameter(i, GAMMA, k * getPhotonPosition(i, Y) + E);"));
+    const EmittedPass pass = emit("GAMMA = 3; k = 7;\n" + in_loop("setPhotonParameter(i, GAMMA, k * "
+                                        "getPhotonPosition(i, Y) + E);"));
     EXPECT_TRUE(pass.uniforms.empty());
     EXPECT_TRUE(has(pass, "7.0 * read_position(v_i).y + 2.7182817"));
 }
@@ -142,7 +151,8 @@ TEST(Emit, only_buffers_that_are_used_are_bound) {
 }
 
 TEST(Emit, checks_are_left_out_where_nothing_can_fail) {
-    const EmittedPass pass = emit(in_loop("float c[4]; c[2] = 1; x = c[3] + getPhotonNormal(i, Z); c[1] += x; setPhotonColourEncoding(i, x, c[1], 1);"));
+    const EmittedPass pass = emit(in_loop("float c[4]; c[2] = 1; x = c[3] + getPhotonNormal(i, Z); c[1] += x; "
+                                        "setPhotonColourEncoding(i, x, c[1], 1);"));
     EXPECT_TRUE(pass.sites.empty()) << pass.glsl;
 }
 
