@@ -138,6 +138,18 @@ nb::list list_glsl(const BoundScript& self) {
     return texts;
 }
 
+nb::list list_spirv(const BoundScript& self) {
+    nb::list passes;
+    for (std::size_t i = 0; i < self.compiled->passes.size(); ++i) {
+        if (!self.compiled->plan.loops[i].is_parallel)
+            continue;
+        const std::vector<std::uint32_t> words =
+            gpu::compile_generated(script::name_kernel(self.compiled->passes[i]));
+        passes.append(nb::bytes(reinterpret_cast<const char*>(words.data()), words.size() * sizeof words[0]));
+    }
+    return passes;
+}
+
 script::RunSettings read_settings(const nb::dict& given) {
     script::RunSettings settings;
     settings.values = nb::cast<std::map<std::string, double>>(given["values"]);
@@ -276,6 +288,7 @@ void bind_script(nb::module_& module) {
         .def_prop_ro("columns", &list_columns)
         .def_prop_ro("passes", &list_passes)
         .def("glsl", &list_glsl, "The text of every compute pass.")
+        .def("spirv", &list_spirv, "Every compute pass as SPIR-V.")
         .def("run", &run, nb::arg("device"), nb::arg("photons"), nb::arg("settings"),
              nb::arg("progress").none() = nb::none(),
              "Run over a map; settings: values, keep, seed, fuel, exhausted, seconds, and what keep keeps: parameters, "

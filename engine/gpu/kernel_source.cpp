@@ -11,6 +11,7 @@
 #include <dlfcn.h>
 
 #include "core/error.h"
+#include "gpu/compile_glsl.h"
 
 namespace photonloupe::gpu {
 namespace {
@@ -157,6 +158,10 @@ std::string declare_bindings(const ExpandedSource& source, const std::vector<std
         ++index;
     }
     return out.str();
+}
+
+std::vector<std::uint32_t> compile_generated(const KernelSource& source) {
+    return compile_glsl(declare_bindings(expand_source(source), source.defines, 0), source.path);
 }
 
 } // namespace photonloupe::gpu

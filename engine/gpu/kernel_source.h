@@ -44,4 +44,7 @@ ExpandedSource expand_source(const KernelSource& source);
 std::string declare_bindings(const ExpandedSource& source, const std::vector<std::string>& defines,
                              std::uint64_t by_address);
 
+// A kernel's SPIR-V with all its buffers in descriptors; needs no device.
+std::vector<std::uint32_t> compile_generated(const KernelSource& source);
+
 } // namespace photonloupe::gpu

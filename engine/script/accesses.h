@@ -18,7 +18,8 @@ struct ChoiceStatement {
     std::uint32_t decided = 0;
     const Expression* candidate = nullptr;
     const Expression* index = nullptr; // of array elements
-    std::vector<const Expression*> payload; // assignments, in order
+    const Expression* decision = nullptr;   // the assignment of the winner
+    std::vector<const Expression*> payload; // the other assignments, in order
 };
 std::optional<ChoiceStatement> match_choice(const Program& program, const Statement& statement);
 
@@ -55,6 +56,7 @@ struct BodyAccesses {
 };
 
 // Statements in `ordinary` are not taken for choices.
-BodyAccesses collect_accesses(const Program& program, const Statement& loop, const std::set<const Statement*>& ordinary);
+BodyAccesses collect_accesses(const Program& program, const Statement& loop,
+                              const std::set<const Statement*>& ordinary);
 
 } // namespace photonloupe::script

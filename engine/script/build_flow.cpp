@@ -79,33 +79,45 @@ private:
             visit(operand);
         const FlowNames& names = m_flow.names;
         switch (e.builtin->id) {
-        case BuiltinId::reset_pca_2d: return note(Access::write, names.moments(2));
-        case BuiltinId::reset_pca_3d: return note(Access::write, names.moments(3));
-        case BuiltinId::push_pca_2d: return note(Access::read, names.moments(2));
-        case BuiltinId::push_pca_3d: return note(Access::read, names.moments(3));
+        case BuiltinId::reset_pca_2d:
+            return note(Access::write, names.moments(2));
+        case BuiltinId::reset_pca_3d:
+            return note(Access::write, names.moments(3));
+        case BuiltinId::push_pca_2d:
+            return note(Access::read, names.moments(2));
+        case BuiltinId::push_pca_3d:
+            return note(Access::read, names.moments(3));
         case BuiltinId::decompose_pca_2d:
         case BuiltinId::decompose_pca_3d:
             note(Access::read, names.moments(e.builtin->id == BuiltinId::decompose_pca_2d ? 2 : 3));
             return note(Access::write, names.decomposition());
         case BuiltinId::get_pca_eigenvalue:
         case BuiltinId::get_pca_eigenvector:
-        case BuiltinId::get_pca_mean: return note(Access::read, names.decomposition());
-        default: return;
+        case BuiltinId::get_pca_mean:
+            return note(Access::read, names.decomposition());
+        default:
+            return;
         }
     }
 
     void visit(const Expression& e) {
         switch (e.kind) {
-        case Expression::Kind::variable: return note(Access::read, e.variable);
-        case Expression::Kind::assignment: return visit_assignment(e);
-        case Expression::Kind::conditional: return visit_choice(e);
-        case Expression::Kind::call: return visit_call(e);
-        case Expression::Kind::builtin: return visit_builtin(e);
+        case Expression::Kind::variable:
+            return note(Access::read, e.variable);
+        case Expression::Kind::assignment:
+            return visit_assignment(e);
+        case Expression::Kind::conditional:
+            return visit_choice(e);
+        case Expression::Kind::call:
+            return visit_call(e);
+        case Expression::Kind::builtin:
+            return visit_builtin(e);
         case Expression::Kind::binary:
             if (e.operation == Operator::logical_and || e.operation == Operator::logical_or)
                 return visit_choice(e);
             break;
-        default: break;
+        default:
+            break;
         }
         for (const Expression& operand : e.operands)
             visit(operand);
@@ -183,19 +195,27 @@ private:
 
     void visit(const Statement& s) {
         switch (s.kind) {
-        case Statement::Kind::expression: return visit(*s.value);
+        case Statement::Kind::expression:
+            return visit(*s.value);
         case Statement::Kind::declare:
             note(Access::forget, s.variable);
             if (s.value)
                 visit(*s.value);
             return;
-        case Statement::Kind::branch: return visit_branch(s);
-        case Statement::Kind::loop: return visit_loop(s);
-        case Statement::Kind::photon_loop: return visit_photon_loop(s);
-        case Statement::Kind::expose: return;
-        case Statement::Kind::block: return visit(s.body);
-        case Statement::Kind::leave: return jump(m_exits.back().exit);
-        case Statement::Kind::next: return jump(m_exits.back().again);
+        case Statement::Kind::branch:
+            return visit_branch(s);
+        case Statement::Kind::loop:
+            return visit_loop(s);
+        case Statement::Kind::photon_loop:
+            return visit_photon_loop(s);
+        case Statement::Kind::expose:
+            return;
+        case Statement::Kind::block:
+            return visit(s.body);
+        case Statement::Kind::leave:
+            return jump(m_exits.back().exit);
+        case Statement::Kind::next:
+            return jump(m_exits.back().again);
         case Statement::Kind::give:
             if (s.value)
                 visit(*s.value);

@@ -39,6 +39,7 @@ void check_meaning(Draft& draft, Diagnostics& diagnostics) {
     find_constants(draft);
     resolve_array_sizes(draft, diagnostics);
     check_assignment(draft, diagnostics);
+    find_constants(draft); // again: now it is known which reads may find nothing
     find_photon_loops(draft, diagnostics);
     bound_loops(draft);
     check_values(draft, diagnostics);

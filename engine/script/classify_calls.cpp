@@ -51,12 +51,16 @@ std::string quote(const Expression& call) { return "'" + std::string(call.builti
 void classify_calls(const LoopFacts& facts, PhotonLoop& loop, Diagnostics& diagnostics) {
     for (const Expression* call : facts.accesses.calls) {
         switch (call->builtin->id) {
-        case BuiltinId::set_photon_parameter: loop.sets_parameters = true; break;
-        case BuiltinId::set_photon_colour_encoding: loop.sets_colors = true; break;
-        case BuiltinId::print: loop.prints = true; break;
+        case BuiltinId::set_photon_parameter:
+            loop.sets_parameters = true; break;
+        case BuiltinId::set_photon_colour_encoding:
+            loop.sets_colors = true; break;
+        case BuiltinId::print:
+            loop.prints = true; break;
         case BuiltinId::get_knn:
         case BuiltinId::get_parameter_knn:
-        case BuiltinId::get_constrained_knn: add_query(facts, loop, *call); break;
+        case BuiltinId::get_constrained_knn:
+            add_query(facts, loop, *call); break;
         case BuiltinId::get_photon_parameter:
             if (reads_position(facts, loop, *call)) {
                 loop.columns |= COLUMN_POSITION;
@@ -67,7 +71,8 @@ void classify_calls(const LoopFacts& facts, PhotonLoop& loop, Diagnostics& diagn
                 loop.columns |= COLUMN_POSITION;
             loop.columns |= COLUMN_PARAMETERS;
             continue;
-        default: break;
+        default:
+            break;
         }
         loop.columns |= call->builtin->columns;
     }

@@ -62,8 +62,10 @@ private:
         case Effect::decomposes_pca:
             read(moments, e.span);
             return write(m_names.decomposition(), e.span);
-        case Effect::reads_pca: return read(m_names.decomposition(), e.span);
-        default: return;
+        case Effect::reads_pca:
+            return read(m_names.decomposition(), e.span);
+        default:
+            return;
         }
     }
 
@@ -72,14 +74,18 @@ private:
             visit(operand);
         switch (e.kind) {
         case Expression::Kind::variable:
-        case Expression::Kind::element: return read(e.variable, e.span);
+        case Expression::Kind::element:
+            return read(e.variable, e.span);
         case Expression::Kind::assignment:
             if (e.operation != Operator::none)
                 read(e.variable, e.span);
             return write(e.variable, e.span);
-        case Expression::Kind::call: return visit_call(e);
-        case Expression::Kind::builtin: return visit_builtin(e);
-        default: return;
+        case Expression::Kind::call:
+            return visit_call(e);
+        case Expression::Kind::builtin:
+            return visit_builtin(e);
+        default:
+            return;
         }
     }
 
@@ -114,7 +120,8 @@ private:
 
     void visit(const Statement& s) {
         switch (s.kind) {
-        case Statement::Kind::expression: return visit_unused(*s.value);
+        case Statement::Kind::expression:
+            return visit_unused(*s.value);
         case Statement::Kind::declare:
             write(s.variable, s.span);
             if (s.value)
@@ -128,14 +135,17 @@ private:
             visit(s.body);
             return visit(s.otherwise);
         case Statement::Kind::loop:
-        case Statement::Kind::photon_loop: return visit_loop(s);
-        case Statement::Kind::block: return visit(s.body);
+        case Statement::Kind::photon_loop:
+            return visit_loop(s);
+        case Statement::Kind::block:
+            return visit(s.body);
         case Statement::Kind::leave:
             if (m_inner_loops == 0)
                 m_found.leaves.push_back(s.span);
             return;
         case Statement::Kind::next:
-        case Statement::Kind::expose: return;
+        case Statement::Kind::expose:
+            return;
         case Statement::Kind::give:
             if (s.value)
                 visit(*s.value);

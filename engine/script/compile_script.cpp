@@ -16,6 +16,8 @@ std::unique_ptr<CompiledScript> compile_script(Source source) {
         compiled->plan = plan_photon_loops(compiled->program, diagnostics);
         for (const PhotonLoop& loop : compiled->plan.loops) {
             EmittedPass& pass = compiled->passes.emplace_back();
+            for (const Diagnostic& reason : loop.reasons)
+                diagnostics.add(reason.code, reason.span, reason.message, reason.note);
             if (!loop.is_parallel || diagnostics.has_errors())
                 continue;
             pass = emit_pass(compiled->program, compiled->plan, loop);

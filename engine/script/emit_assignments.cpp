@@ -8,10 +8,14 @@ namespace {
 
 const char* find_sign(Operator operation) {
     switch (operation) {
-    case Operator::add: return " + ";
-    case Operator::subtract: return " - ";
-    case Operator::multiply: return " * ";
-    default: return " / ";
+    case Operator::add:
+        return " + ";
+    case Operator::subtract:
+        return " - ";
+    case Operator::multiply:
+        return " * ";
+    default:
+        return " / ";
     }
 }
 
@@ -65,7 +69,11 @@ Code Emitter::assign_element(const Expression& e, bool is_used) {
                  return Code{std::to_string(std::int32_t(*at)), Binding::primary, true};
              return keep(Type::integer, emit_place(index, std::to_string(array.array_size), Fault::array_index));
          },
-         [&] { return emit_as(e.operands[0], array.type); }},
+         [&] {
+             const Code value = emit_as(e.operands[0], array.type);
+             // What it reports, it reports also where the write is dropped.
+             return is_safe || value.text.find('(') == std::string::npos ? value : keep(array.type, value);
+         }},
         {Type::integer, array.type});
     const std::string element = m_names.at(e.variable) + "[" + codes[0].text + "]", nothing = write_nothing(array.type);
     const std::string guarded = is_safe ? element : "(" + codes[0].text + " >= 0 ? " + element + " : " + nothing + ")";

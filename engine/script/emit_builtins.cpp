@@ -36,12 +36,16 @@ Code Emitter::emit_builtin(const Expression& e) {
     switch (e.builtin->effect) {
     case Effect::reads_photon:
     case Effect::queries:
-    case Effect::sets_photon: return emit_photon_call(e);
+    case Effect::sets_photon:
+        return emit_photon_call(e);
     case Effect::changes_pca:
     case Effect::decomposes_pca:
-    case Effect::reads_pca: return emit_pca(e);
-    case Effect::reports: return emit_report(e);
-    default: return emit_math(e);
+    case Effect::reads_pca:
+        return emit_pca(e);
+    case Effect::reports:
+        return emit_report(e);
+    default:
+        return emit_math(e);
     }
 }
 
@@ -63,7 +67,8 @@ Code Emitter::emit_math(const Expression& e) {
     }
     const bool stays_integer = e.type == Type::integer && are_integers(e);
     const std::vector<Code> codes = emit_numbers(e, 0, stays_integer ? Type::integer : Type::real);
-    const bool rounds = id == BuiltinId::int_ || id == BuiltinId::floor || id == BuiltinId::ceil || id == BuiltinId::round;
+    const bool rounds =
+        id == BuiltinId::int_ || id == BuiltinId::floor || id == BuiltinId::ceil || id == BuiltinId::round;
     if (rounds && stays_integer)
         return codes[0];
     std::string text = name + "(" + join_arguments(codes);
@@ -77,13 +82,16 @@ Code Emitter::emit_math(const Expression& e) {
 Code Emitter::emit_pca(const Expression& e) {
     use("pca");
     const BuiltinId id = e.builtin->id;
-    const bool is_plane = id == BuiltinId::reset_pca_2d || id == BuiltinId::push_pca_2d || id == BuiltinId::decompose_pca_2d;
+    const bool is_plane =
+        id == BuiltinId::reset_pca_2d || id == BuiltinId::push_pca_2d || id == BuiltinId::decompose_pca_2d;
     const std::string moments = is_plane ? "moments_2d" : "moments_3d";
     if (e.builtin->effect != Effect::reads_pca)
         m_block.changes = true;
     switch (id) {
     case BuiltinId::reset_pca_2d:
-    case BuiltinId::reset_pca_3d: write_line(moments + " = NO_MOMENTS;"); return {"0", Binding::primary, true};
+    case BuiltinId::reset_pca_3d:
+        write_line(moments + " = NO_MOMENTS;");
+        return {"0", Binding::primary, true};
     case BuiltinId::push_pca_2d:
     case BuiltinId::push_pca_3d: {
         const std::vector<Code> codes = emit_numbers(e, 0, Type::real);
@@ -93,8 +101,10 @@ Code Emitter::emit_pca(const Expression& e) {
     }
     case BuiltinId::decompose_pca_2d:
     case BuiltinId::decompose_pca_3d:
-        return keep(Type::integer, {"decompose_moments(" + moments + ", " + (is_plane ? "2" : "3") + ", decomposition)"});
-    default: break;
+        return keep(Type::integer,
+                    {"decompose_moments(" + moments + ", " + (is_plane ? "2" : "3") + ", decomposition)"});
+    default:
+        break;
     }
     const Code first = emit_place(e.operands[0], "decomposition.dimensions", Fault::eigen_index);
     if (id == BuiltinId::get_pca_eigenvalue)

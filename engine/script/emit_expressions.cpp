@@ -20,16 +20,26 @@ struct OperatorText {
 
 OperatorText find_operator(Operator operation) {
     switch (operation) {
-    case Operator::add: return {" + ", Binding::sum};
-    case Operator::subtract: return {" - ", Binding::sum};
-    case Operator::multiply: return {" * ", Binding::product};
-    case Operator::divide: return {" / ", Binding::product};
-    case Operator::equal: return {" == ", Binding::equality};
-    case Operator::not_equal: return {" != ", Binding::equality};
-    case Operator::less: return {" < ", Binding::order};
-    case Operator::less_equal: return {" <= ", Binding::order};
-    case Operator::greater: return {" > ", Binding::order};
-    default: return {" >= ", Binding::order};
+    case Operator::add:
+        return {" + ", Binding::sum};
+    case Operator::subtract:
+        return {" - ", Binding::sum};
+    case Operator::multiply:
+        return {" * ", Binding::product};
+    case Operator::divide:
+        return {" / ", Binding::product};
+    case Operator::equal:
+        return {" == ", Binding::equality};
+    case Operator::not_equal:
+        return {" != ", Binding::equality};
+    case Operator::less:
+        return {" < ", Binding::order};
+    case Operator::less_equal:
+        return {" <= ", Binding::order};
+    case Operator::greater:
+        return {" > ", Binding::order};
+    default:
+        return {" >= ", Binding::order};
     }
 }
 
@@ -77,7 +87,7 @@ std::vector<Code> Emitter::emit_in_order(const std::vector<std::function<Code()>
     }
     for (std::size_t i = 0; i < parts.size(); ++i) {
         append(blocks[i]);
-        if (i + 1 < last_change)
+        if (i + 1 < last_change && !codes[i].is_stable)
             codes[i] = keep(types[i], codes[i]);
     }
     return codes;
@@ -92,26 +102,38 @@ std::vector<Code> Emitter::emit_numbers(const Expression& call, std::size_t firs
 
 Code Emitter::emit(const Expression& e) {
     // glslang computes constants in double precision.
-    if (e.kind == Expression::Kind::binary || e.kind == Expression::Kind::unary)
+    if (e.kind == Expression::Kind::binary || e.kind == Expression::Kind::unary || e.kind == Expression::Kind::builtin)
         if (const std::optional<double> value = find_constant(m_program, m_loop, e))
             return make_number(e.type, *value);
     switch (e.kind) {
-    case Expression::Kind::number: return make_number(e.type, e.type == Type::integer ? e.integer : e.real);
-    case Expression::Kind::text: return {"0", Binding::primary, true};
-    case Expression::Kind::variable: return emit_variable(e);
-    case Expression::Kind::element: return emit_element(e);
-    case Expression::Kind::list_item: return emit_list_item(e);
+    case Expression::Kind::number:
+        return make_number(e.type, e.type == Type::integer ? double(e.integer) : double(e.real));
+    case Expression::Kind::text:
+        return {"0", Binding::primary, true};
+    case Expression::Kind::variable:
+        return emit_variable(e);
+    case Expression::Kind::element:
+        return emit_element(e);
+    case Expression::Kind::list_item:
+        return emit_list_item(e);
     case Expression::Kind::list_length: {
         const Code list = emit_list(e.operands[0]);
         return {list.text + ".y", Binding::primary, list.is_stable};
     }
-    case Expression::Kind::convert: return emit_as(e.operands[0], e.type);
-    case Expression::Kind::unary: return emit_unary(e);
-    case Expression::Kind::binary: return keep_shallow(e.type, emit_binary(e));
-    case Expression::Kind::conditional: return emit_conditional(e);
-    case Expression::Kind::builtin: return keep_shallow(e.type, emit_builtin(e));
-    case Expression::Kind::call: return emit_call(e);
-    case Expression::Kind::assignment: return emit_assignment(e, true);
+    case Expression::Kind::convert:
+        return emit_as(e.operands[0], e.type);
+    case Expression::Kind::unary:
+        return emit_unary(e);
+    case Expression::Kind::binary:
+        return keep_shallow(e.type, emit_binary(e));
+    case Expression::Kind::conditional:
+        return emit_conditional(e);
+    case Expression::Kind::builtin:
+        return keep_shallow(e.type, emit_builtin(e));
+    case Expression::Kind::call:
+        return emit_call(e);
+    case Expression::Kind::assignment:
+        return emit_assignment(e, true);
     }
     return {};
 }
@@ -194,7 +216,8 @@ Code Emitter::emit_binary(const Expression& e) {
     if (e.operation == Operator::modulo)
         return {"script_remainder(" + codes[0].text + ", " + codes[1].text + ", " +
                     find_site(Fault::modulo_by_zero, e.span) + ")",
-                Binding::primary, codes[0].is_stable && codes[1].is_stable, std::max(codes[0].depth, codes[1].depth) + 1};
+                Binding::primary, codes[0].is_stable && codes[1].is_stable,
+                std::max(codes[0].depth, codes[1].depth) + 1};
     return join(codes[0], find_operator(e.operation), codes[1]);
 }
 

@@ -80,11 +80,10 @@ std::string Emitter::declare_variable(std::uint32_t index, bool is_parameter) co
 std::string Emitter::compose_declarations() const {
     std::string text;
     for (const auto& [size, type] : m_zeros) {
-        text += "const " + type + " ZEROS_" + type + "_" + std::to_string(size) + "[" + std::to_string(size) + "] = " +
-                type + "[" + std::to_string(size) + "](";
+        text += "#define ZEROS_" + type + "_" + std::to_string(size) + " " + type + "[" + std::to_string(size) + "](";
         for (std::uint32_t i = 0; i < size; ++i)
-            text += (i > 0 ? "," : "") + std::string(type == "int" ? "0" : "0.0");
-        text += ");\n";
+            text += (i > 0 ? ", " : "") + std::string(type == "int" ? "0" : "ZERO");
+        text += ")\n";
     }
     for (const auto& [index, use] : m_loop.variables) {
         const bool is_array = variable(index).array_size > 0;
@@ -196,7 +195,8 @@ std::string Emitter::compose_loads() const {
             text += "    " + name + " = " + (v.type == Type::integer ? "int(" : "uintBitsToFloat(") +
                     word(slot.first_word) + ");\n";
     }
-    const auto load = [&](const std::optional<std::uint32_t>& at, const std::string& name, const std::string& function) {
+    const auto load = [&](const std::optional<std::uint32_t>& at, const std::string& name,
+                          const std::string& function) {
         if (at)
             text += "    " + name + " = " + function + "(" + std::to_string(*at) + "u);\n";
     };

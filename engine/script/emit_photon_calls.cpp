@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Predefined calls that are about photons: columns, paths, parameters, colors, neighbours.
+#include <algorithm>
+
 #include "script/emitter.h"
 
 namespace photonloupe::script {
@@ -27,20 +29,29 @@ Code Emitter::emit_photon(const Expression& e) {
 
 Code Emitter::emit_photon_call(const Expression& e) {
     switch (e.builtin->id) {
-    case BuiltinId::get_num_photons: return {"int(settings.photon_count)", Binding::primary, true};
-    case BuiltinId::get_photon_position: return emit_column(e, "read_position", "positions");
-    case BuiltinId::get_photon_normal: return emit_column(e, "read_normal", "normals");
-    case BuiltinId::get_photon_power: return emit_column(e, "read_power", "powers");
+    case BuiltinId::get_num_photons:
+        return {"int(settings.photon_count)", Binding::primary, true};
+    case BuiltinId::get_photon_position:
+        return emit_column(e, "read_position", "positions");
+    case BuiltinId::get_photon_normal:
+        return emit_column(e, "read_normal", "normals");
+    case BuiltinId::get_photon_power:
+        return emit_column(e, "read_power", "powers");
     case BuiltinId::get_photon_emitter:
         use("positions");
         return {"read_emitter(" + emit_photon(e.operands[0]).text + ")", Binding::primary, false, 4};
-    case BuiltinId::get_photon_parameter: return emit_get_parameter(e);
-    case BuiltinId::set_photon_parameter: return emit_set_parameter(e);
-    case BuiltinId::set_photon_colour_encoding: return emit_set_color(e);
+    case BuiltinId::get_photon_parameter:
+        return emit_get_parameter(e);
+    case BuiltinId::set_photon_parameter:
+        return emit_set_parameter(e);
+    case BuiltinId::set_photon_colour_encoding:
+        return emit_set_color(e);
     case BuiltinId::get_knn:
     case BuiltinId::get_parameter_knn:
-    case BuiltinId::get_constrained_knn: return emit_query(e);
-    default: return emit_path_call(e);
+    case BuiltinId::get_constrained_knn:
+        return emit_query(e);
+    default:
+        return emit_path_call(e);
     }
 }
 
@@ -104,9 +115,15 @@ Code Emitter::emit_path_call(const Expression& e) {
     case BuiltinId::get_path_normal:
         use("path_normals");
         return finish(pick_axis("read_path_normal" + arguments, e.operands[2], codes[2]));
-    case BuiltinId::get_path_interaction: use("path_vertices"); return finish("read_interaction" + arguments);
-    case BuiltinId::get_path_object: use("path_vertices"); return finish("read_object" + arguments);
-    default: use("path_normals"); return finish("read_path_normal" + arguments + ".w");
+    case BuiltinId::get_path_interaction:
+        use("path_vertices");
+        return finish("read_interaction" + arguments);
+    case BuiltinId::get_path_object:
+        use("path_vertices");
+        return finish("read_object" + arguments);
+    default:
+        use("path_normals");
+        return finish("read_path_normal" + arguments + ".w");
     }
 }
 
@@ -119,6 +136,10 @@ std::string Emitter::keep_path(const Code& photon) {
 
 // A vertex or axis of a path: not looked at where the photon does not exist.
 Code Emitter::emit_vertex(const Expression& index, const std::string& path, Fault outside, const std::string& size) {
+    const auto names = [&](const PathCounter& counter) { return is_on_path(m_program, m_loop, counter, index); };
+    if (path == "own_path" && outside == Fault::vertex_index &&
+        std::any_of(m_path_counters.begin(), m_path_counters.end(), names))
+        return emit(index);
     if (path == "own_path")
         return emit_place(index, size, outside);
     return emit_place(index, size, outside, "int(" + path + ".y) - 1");

@@ -30,8 +30,9 @@ bool Emitter::emit_reduction(const Expression& e) {
         {Type::integer, type});
     const std::string value = step->is_negated ? "-(" + codes[1].text + ")" : codes[1].text;
     if (step->index)
-        write_line(find_element_function(step->role) + std::to_string(m_lane_of.at(step->variable)->first_slot) + "u, " +
-                   codes[0].text + ", " + value + ");");
+        write_line(find_element_function(step->role) +
+                   std::to_string(m_lane_of.at(step->variable)->first_slot) + "u, " + codes[0].text + ", " + value +
+                   ");");
     else if (step->role == Role::sum)
         write_line(name + (step->is_negated ? " -= " : " += ") + codes[1].text + ";");
     else
@@ -61,6 +62,15 @@ void Emitter::emit_element_choice(const ChoiceStatement& choice, const Code& pla
                    place.text + "), " +
                    emit_as(assignment->operands[0], variable(assignment->variable).type).text + ");");
     close();
+    if (variable(choice.decided).type != Type::integer)
+        return;
+    // Outside the array the candidate is compared with 0, and may win: then each assignment is reported, and dropped.
+    const std::string would_win =
+        place.text + " < 0 && " + candidate.text + (choice.role == Role::least ? " < 0" : " > 0");
+    std::vector<const Expression*> assignments{choice.decision};
+    assignments.insert(assignments.end(), choice.payload.begin(), choice.payload.end());
+    for (const Expression* assignment : assignments)
+        write_line("fault_if(" + would_win + ", " + find_site(Fault::array_index, assignment->operands[1].span) + ");");
 }
 
 void Emitter::emit_choice(const ChoiceStatement& choice) {

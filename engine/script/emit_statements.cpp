@@ -33,21 +33,30 @@ void Emitter::emit(const Statement& s) {
     if (s.kind != Statement::Kind::block)
         write_comment(s.span);
     switch (s.kind) {
-    case Statement::Kind::expression: return emit_unused(*s.value);
-    case Statement::Kind::declare: return emit_declaration(s);
-    case Statement::Kind::branch: return emit_branch(s);
-    case Statement::Kind::loop: return emit_loop(s);
-    case Statement::Kind::photon_loop: return emit_photon_loop_inside(s);
-    case Statement::Kind::block: return emit(s.body);
-    case Statement::Kind::leave: return write_line("break;");
+    case Statement::Kind::expression:
+        return emit_unused(*s.value);
+    case Statement::Kind::declare:
+        return emit_declaration(s);
+    case Statement::Kind::branch:
+        return emit_branch(s);
+    case Statement::Kind::loop:
+        return emit_loop(s);
+    case Statement::Kind::photon_loop:
+        return emit_photon_loop_inside(s);
+    case Statement::Kind::block:
+        return emit(s.body);
+    case Statement::Kind::leave:
+        return write_line("break;");
     case Statement::Kind::next:
         if (m_loops.back().is_photon_loop)
             return write_line("return;");
         if (m_loops.back().before_next)
             m_loops.back().before_next();
         return write_line("continue;");
-    case Statement::Kind::give: return emit_return(s);
-    case Statement::Kind::expose: return;
+    case Statement::Kind::give:
+        return emit_return(s);
+    case Statement::Kind::expose:
+        return;
     }
 }
 
@@ -129,11 +138,19 @@ void Emitter::emit_loop(const Statement& s) {
         is_short &= !single.empty();
         last += (last.empty() ? "" : ", ") + single;
     }
+    const std::optional<PathCounter> counter =
+        m_function ? std::nullopt : find_path_counter(m_program, m_loop, s);
+    if (counter)
+        m_path_counters.push_back(*counter);
     if (is_short)
         emit_short_loop(s, s.value ? condition : Code{}, last);
     else
         emit_long_loop(s);
-    write_line("share_turns();");
+    if (counter)
+        m_path_counters.pop_back();
+    const bool is_inside_loop = m_loops.size() > 1; // the photon loop is the first
+    if (!counter || !counter->is_short || is_inside_loop) // a few turns are shared after every photon
+        write_line("share_turns();");
 }
 
 // Condition and last part are expressions of GLSL.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The emitter's lines, temporaries, names and fault sites.
-#include "script/emitter.h"
-
+#include <algorithm>
 #include <cctype>
+
+#include "script/emitter.h"
 
 namespace photonloupe::script {
 namespace {
@@ -14,6 +15,12 @@ constexpr std::size_t LONGEST_TEXT = 300;    // of an expression
 
 const char* name_type(Type type) {
     return type == Type::integer ? "int" : type == Type::list ? "ivec2" : "precise float";
+}
+
+// A name or a number.
+bool is_name(const std::string& text) {
+    return std::all_of(text.begin(), text.end(),
+                       [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '.'; });
 }
 
 } // namespace
@@ -51,7 +58,7 @@ void Emitter::append(const Block& block) {
 }
 
 Code Emitter::keep(Type type, const Code& code) {
-    if (code.is_stable)
+    if (code.is_stable && is_name(code.text))
         return code;
     const std::string name = "t" + std::to_string(++m_temporaries);
     write_line(std::string(name_type(type)) + " " + name + " = " + code.text + ";");
@@ -59,8 +66,6 @@ Code Emitter::keep(Type type, const Code& code) {
 }
 
 Code Emitter::keep_condition(const Code& code) {
-    if (code.is_stable)
-        return code;
     const std::string name = "t" + std::to_string(++m_temporaries);
     write_line("bool " + name + " = " + code.text + ";");
     return {name, Binding::primary, true};

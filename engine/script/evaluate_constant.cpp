@@ -2,6 +2,8 @@
 // Evaluates what is constant, and finds the variables that are.
 #include "script/evaluate_constant.h"
 
+#include <cmath>
+
 #include "script/apply_operator.h"
 #include "script/assignments.h"
 #include "script/builtins.h"
@@ -71,6 +73,8 @@ std::optional<Number> evaluate(const Program& program, const Expression& express
                                                 : Number{.real = expression.real};
     case Kind::variable: {
         const Variable& variable = program.variables[expression.variable];
+        if (expression.may_be_unset)
+            return std::nullopt; // a run may find nothing there
         return variable.constant ? std::optional(make_number(variable.type, *variable.constant)) : std::nullopt;
     }
     case Kind::convert: {
@@ -106,7 +110,7 @@ std::optional<double> find_constant(const Program& program, std::uint32_t index,
                                                                : PREDEFINED_VALUES[index];
     for (const Expression* const value : assignments.values) {
         const std::optional<double> one = evaluate_constant(program, *value);
-        if (!one || (constant && *constant != *one))
+        if (!one || (constant && (*constant != *one || std::signbit(*constant) != std::signbit(*one))))
             return std::nullopt; // NaN is no constant: it equals nothing
         constant = one;
     }
@@ -124,6 +128,8 @@ std::optional<double> evaluate_constant(const Program& program, const Expression
 
 void find_constants(Draft& draft) {
     const std::vector<Assignments> assignments = collect_assignments(draft);
+    for (Variable& variable : draft.program.variables)
+        variable.constant.reset();
     bool has_changed = true;
     for (int round = 0; round < MAX_ROUNDS && has_changed; ++round) {
         has_changed = false;

@@ -12,12 +12,16 @@ const std::string SERIAL = "the loop over photons runs serially: ";
 
 const char* describe_role(Role role) {
     switch (role) {
-    case Role::sum: return "summed";
+    case Role::sum:
+        return "summed";
     case Role::minimum:
-    case Role::least: return "minimized";
+    case Role::least:
+        return "minimized";
     case Role::maximum:
-    case Role::greatest: return "maximized";
-    default: return "assigned with a least or greatest value";
+    case Role::greatest:
+        return "maximized";
+    default:
+        return "assigned with a least or greatest value";
     }
 }
 

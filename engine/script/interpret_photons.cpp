@@ -80,7 +80,8 @@ Number Interpreter::read_parameter(const Expression& expression) {
     const std::size_t index = dimension - FIRST_DIMENSION;
     if (m_iteration.loop && photon == m_iteration.photon && m_iteration.has_parameter[index])
         return make_real(m_iteration.parameters[index]);
-    return make_real(columns.read_parameter(index, photon));
+    const float value = columns.read_parameter(index, photon);
+    return make_real(is_unset(value) ? NOT_A_NUMBER : value); // arithmetic would carry the mark of the unset along
 }
 
 // Its label, else the constant that names its dimension (GAMMA), else p3; never a name that another one has.

@@ -122,7 +122,6 @@ bool fill_choice(const Program& program, const std::vector<const Expression*>& a
     choice.candidate = &candidate;
     choice.index = target.kind == Expression::Kind::element ? &target.operands[0] : nullptr;
     const std::uint32_t size = program.variables[target.variable].array_size;
-    int decisions = 0;
     for (const Expression* assignment : assignments) {
         const Expression* index = find_index(*assignment);
         const bool is_alike = bool(index) == bool(choice.index) && (!index || are_same(program, *index, *choice.index));
@@ -131,10 +130,12 @@ bool fill_choice(const Program& program, const std::vector<const Expression*>& a
             return false;
         if (assignment->variable != choice.decided)
             choice.payload.push_back(assignment);
-        else if (!are_same(program, strip(assignment->operands[0]), strip(candidate)) || ++decisions > 1)
+        else if (choice.decision || !are_same(program, strip(assignment->operands[0]), strip(candidate)))
             return false;
+        else
+            choice.decision = assignment;
     }
-    return decisions == 1;
+    return choice.decision != nullptr;
 }
 
 } // namespace
@@ -171,8 +172,10 @@ std::optional<ReductionStep> match_reduction(const Program& program, const Expre
     case Operator::add:
     case Operator::subtract:
         return ReductionStep{Role::sum, e.variable, &e.operands[0], find_index(e), e.operation == Operator::subtract};
-    case Operator::none: return match_written_out(program, e);
-    default: return std::nullopt;
+    case Operator::none:
+        return match_written_out(program, e);
+    default:
+        return std::nullopt;
     }
 }
 

@@ -99,12 +99,11 @@ void PassRunner::ask_neighbors(Work& work, std::uint32_t first_photon, std::uint
         float beta = 0;
         if (query.query->beta)
             beta = to_real(*query.query->beta, work.interpreter.evaluate_uniform(*query.query->beta));
-        const std::uint32_t described[] = {static_cast<std::uint32_t>(next), k, first, k > 0 && beta >= 0 ? count : 0u};
+        const bool is_valid = k > 0 && beta >= 0; // else the pass says so
+        const std::uint32_t described[] = {static_cast<std::uint32_t>(next), is_valid ? k : 0u, first, is_valid ? count : 0u};
         std::ranges::copy(described, work.uniforms.begin() + query.first_word);
-        if (described[3] == 0) {
-            m_outputs.add_faults({Fault::query, query.query->call->span}, 0, 1);
+        if (!is_valid || count == 0)
             continue;
-        }
         std::vector<std::uint32_t> photons(count);
         std::iota(photons.begin(), photons.end(), first);
         Rows& rows = parts.emplace_back(Rows{m_find_rows(query.query->space, photons, k, beta), std::uint64_t{count} * k});
@@ -183,8 +182,9 @@ void PassRunner::collect_histograms(const Work& work) {
     for (const PassHistogram& histogram : work.pass.histograms) {
         const std::uint32_t* described = &work.uniforms[histogram.first_word];
         const std::uint32_t bins = described[2], first = described[3];
-        if (bins == 0)
-            continue;
+        const auto counted = words.begin() + first;
+        if (bins == 0 || std::all_of(counted, counted + bins + shared::HISTOGRAM_EXTRA, [](auto n) { return n == 0; }))
+            continue; // nobody asked for it
         const std::size_t place = m_outputs.find_histogram(histogram.name, std::bit_cast<float>(described[0]),
                                                            std::bit_cast<float>(described[1]), bins);
         HistogramCounts& counts = m_outputs.histograms[place];

@@ -40,6 +40,8 @@ LaneLayout take_layout(const Program& program, const EmittedPass& pass) {
 
 } // namespace
 
+gpu::KernelSource name_kernel(const EmittedPass& pass) { return {"script", REDUCTION_LANES, {}, {}, pass.glsl}; }
+
 PassRunner::PassRunner(gpu::Device& device, const PhotonMap& photons, const Program& program, const Plan& plan,
                        const std::vector<EmittedPass>& passes, RunOutputs& outputs, const RunSettings& settings,
                        FindRows find_rows, const Progress& progress)
@@ -94,8 +96,7 @@ void PassRunner::dispatch(gpu::Commands& commands, const Work& work, const share
     const auto choose_path = [&](gpu::Buffer PathColumns::*column) -> const gpu::Buffer& {
         return m_photons.paths ? choose((*m_photons.paths).*column) : m_nothing;
     };
-    gpu::KernelSource source{"script", REDUCTION_LANES, {}, {}, work.pass.glsl};
-    commands.dispatch(source,
+    commands.dispatch(name_kernel(work.pass),
                       {{"uniform_words", work.uniform_words},
                        {"lane_words", choose(work.lane_words)},
                        {"fault_words", work.fault_words},

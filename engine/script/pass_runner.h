@@ -20,6 +20,9 @@ namespace photonloupe::script {
 using FindRows = std::function<gpu::Buffer(NeighborQuery::Space, std::span<const std::uint32_t> photons,
                                            std::uint32_t k, float beta)>;
 
+// The kernel of a pass.
+gpu::KernelSource name_kernel(const EmittedPass& pass);
+
 class PassRunner {
 public:
     // All must outlive it; `passes` go with plan.loops.

@@ -88,8 +88,8 @@ Plan plan_photon_loops(const Program& program, Diagnostics& diagnostics) {
     Plan plan;
     for (const Statement* statement : LoopFinder(program).find()) {
         const LoopFlow& blocks = flow.loops.at(statement);
-        LoopFacts facts{program, *statement, flow.names, BodyAccesses(), find_live_names(flow, blocks.first, blocks.end)[0],
-                        live[blocks.exit]};
+        const NameSet enters = find_live_names(flow, blocks.first, blocks.end)[0];
+        LoopFacts facts{program, *statement, flow.names, BodyAccesses(), enters, live[blocks.exit]};
         facts.leaves[statement->variable] = false; // it is the photon count then
         plan.loops.push_back(plan_loop(facts, unset, diagnostics));
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decides which photon loops run as compute passes, and what each pass reads, writes and reduces (SCRIPT, parallel rules).
+// Decides which photon loops run as compute passes, and what each reads, writes and reduces (SCRIPT, parallel rules).
 #pragma once
 
 #include <map>
@@ -30,7 +30,7 @@ struct VariableUse {
     std::uint32_t of = 0; // payload: the least or greatest it goes with
 };
 
-// How a body uses an accumulator of moments (the 2-D and the 3-D one each have their own; the decomposition they share).
+// How a body uses an accumulator of moments (the 2-D and the 3-D one have their own; the decomposition they share).
 enum class AccumulatorUse : std::uint8_t { unused, local, uniform, reduction, carried };
 
 // One neighbour query of a pass; its rows are gathered before the pass runs.
@@ -46,7 +46,7 @@ struct NeighborQuery {
 struct PhotonLoop {
     const Statement* statement = nullptr;
     bool is_parallel = true;
-    std::vector<Diagnostic> reasons;   // why it is serial: warnings that name the variable or call, the line, the rewrite
+    std::vector<Diagnostic> reasons;   // why it is serial: warnings that name the variable or call, and the rewrite
     std::map<std::uint32_t, VariableUse> variables; // every variable the body (functions too) uses
     // The if statements recognised as arg-min or arg-max, by their address, with the variable they decide.
     std::map<const Statement*, std::uint32_t> choices;

@@ -3,6 +3,7 @@
 #include "script/plan.h"
 
 #include "script/apply_operator.h"
+#include "script/builtins.h"
 #include "script/substitute.h"
 
 namespace photonloupe::script {
@@ -19,9 +20,46 @@ Number to_number(const Expression& expression, double value) {
 
 double to_double(Type type, Number number) { return type == Type::integer ? number.integer : double(number.real); }
 
-// Neither reports anything nor leaves anything out.
-bool is_foldable(Operator operation) {
-    return operation != Operator::modulo && operation != Operator::logical_and && operation != Operator::logical_or;
+// A variable that the loop does not write: others hold what they hold, or nothing yet.
+std::optional<double> find_constant_variable(const Program& program, const PhotonLoop& loop, std::uint32_t index) {
+    const auto use = loop.variables.find(index);
+    if (use == loop.variables.end() || use->second.role != Role::uniform || loop.unset_reads.contains(index) ||
+        program.variables[index].exposed)
+        return std::nullopt;
+    return program.variables[index].constant;
+}
+
+// What neither reports anything nor leaves anything out, as a run computes it.
+std::optional<double> find_constant_operation(const Program& program, const PhotonLoop& loop, const Expression& e) {
+    std::vector<Number> values;
+    for (const Expression& operand : e.operands) {
+        const std::optional<double> value = find_constant(program, loop, operand);
+        if (!value)
+            return std::nullopt;
+        values.push_back(to_number(operand, *value));
+    }
+    const Type type = e.operands[0].type;
+    if (e.kind == Expression::Kind::unary && e.operation == Operator::negate)
+        return to_double(e.type, apply_unary(e.operation, type, values[0]));
+    if (e.kind != Expression::Kind::binary || e.operands[1].type != type || e.operation == Operator::logical_and ||
+        e.operation == Operator::logical_or ||
+        (e.operation == Operator::modulo && (type == Type::integer ? values[1].integer == 0 : values[1].real == 0)))
+        return std::nullopt;
+    return to_double(e.type, apply_operator(e.operation, type, values[0], values[1]));
+}
+
+// Real results only: those that are whole may not fit.
+std::optional<double> find_constant_call(const Program& program, const PhotonLoop& loop, const Expression& e) {
+    if (e.builtin->effect != Effect::none || !e.builtin->reference || e.type != Type::real)
+        return std::nullopt;
+    std::vector<float> values;
+    for (const Expression& operand : e.operands) {
+        const std::optional<double> value = find_constant(program, loop, operand);
+        if (!value)
+            return std::nullopt;
+        values.push_back(float(*value));
+    }
+    return e.builtin->reference(values);
 }
 
 } // namespace
@@ -66,17 +104,17 @@ std::optional<double> find_constant(const Program& program, const PhotonLoop& lo
         return std::nullopt;
     if (e.kind == Expression::Kind::number)
         return e.type == Type::integer ? double(e.integer) : double(e.real);
-    if (e.kind == Expression::Kind::variable && !loop.unset_reads.contains(e.variable))
-        return program.variables[e.variable].exposed ? std::nullopt : program.variables[e.variable].constant;
-    if (e.kind == Expression::Kind::unary && e.operation == Operator::negate)
-        if (const std::optional<double> value = find_constant(program, loop, e.operands[0]))
-            return to_double(e.type, apply_unary(e.operation, e.operands[0].type, to_number(e.operands[0], *value)));
-    if (e.kind == Expression::Kind::binary && is_foldable(e.operation))
-        if (const std::optional<double> a = find_constant(program, loop, e.operands[0]))
-            if (const std::optional<double> b = find_constant(program, loop, e.operands[1]))
-                return to_double(e.type, apply_operator(e.operation, e.operands[0].type, to_number(e.operands[0], *a),
-                                                        to_number(e.operands[1], *b)));
-    return std::nullopt;
+    switch (e.kind) {
+    case Expression::Kind::variable:
+        return find_constant_variable(program, loop, e.variable);
+    case Expression::Kind::unary:
+    case Expression::Kind::binary:
+        return find_constant_operation(program, loop, e);
+    case Expression::Kind::builtin:
+        return find_constant_call(program, loop, e);
+    default:
+        return std::nullopt;
+    }
 }
 
 Expression substitute_given(const Program& program, const PhotonLoop& loop, const Expression& expression) {

@@ -132,6 +132,11 @@ class Script:
         self.require()
         return list(self._native.glsl())
 
+    def spirv(self) -> list[bytes]:
+        """Return every compute pass as SPIR-V."""
+        self.require()
+        return list(self._native.spirv())
+
     def require(self) -> None:
         """Raise what is wrong with it, if anything is.
 

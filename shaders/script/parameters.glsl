@@ -25,6 +25,7 @@ float read_own_parameter(int dimension) {
 }
 
 void write_parameter(int dimension) {
-    if ((staged_mask >> uint(dimension - 3) & 1u) != 0u)
-        parameter_columns[uint(dimension - 3) * settings.photon_count + uint(photon)] = staged_parameters[dimension - 3];
+    uint column = uint(dimension - 3);
+    if ((staged_mask >> column & 1u) != 0u)
+        parameter_columns[column * settings.photon_count + uint(photon)] = staged_parameters[column];
 }

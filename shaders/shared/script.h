@@ -7,9 +7,10 @@
 
 SHARED_BEGIN
 
-// One dispatch runs block_count × groups workgroups of SCRIPT_LANES. Workgroup w takes block first_block + w % block_count;
-// its lane l takes photons block · SCRIPT_BLOCK + round · SCRIPT_LANES + l in turn, for `rounds` rounds from
-// first_round + (w / block_count) · rounds on. A pass that reduces is dispatched with one group: a lane's photons in order.
+// One dispatch runs block_count × groups workgroups of SCRIPT_LANES. Workgroup w takes block
+// first_block + w % block_count; its lane l takes photons block · SCRIPT_BLOCK + round · SCRIPT_LANES + l in turn, for
+// `rounds` rounds from first_round + (w / block_count) · rounds on. A pass that reduces is dispatched with one group: a
+// lane's photons in order.
 const uint SCRIPT_BLOCK = 4096u;
 const uint SCRIPT_LANES = 64u;
 const uint SCRIPT_ROUNDS = 64u; // of a block
@@ -48,8 +49,8 @@ const uint FAULT_STRIDE = 2u;
 // photon of the first row, rows. A list in a uniform variable has the first word and its length.
 const uint QUERY_STRIDE = 4u;
 
-// A histogram has HISTOGRAM_STRIDE uniform words: lo, hi, bins, its first word in histogram_words. There: the bins, then
-// below lo, above hi, not finite.
+// A histogram has HISTOGRAM_STRIDE uniform words: lo, hi, bins, its first word in histogram_words. There: the bins,
+// then below lo, above hi, not finite.
 const uint HISTOGRAM_STRIDE = 4u;
 const uint HISTOGRAM_EXTRA = 3u;
 

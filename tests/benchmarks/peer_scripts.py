@@ -120,7 +120,7 @@ def build_taichi(vertices: Floats, normals: Floats) -> tuple[Work, Work, Callabl
     facings.from_numpy(normals)
 
     @ti.kernel
-    def tortuosity():  # noqa: ANN202 - Taichi reads annotations as its own
+    def tortuosity():
         for i in range(count):
             total = 0.0
             for j in range(1, VERTICES - 1):
@@ -131,7 +131,7 @@ def build_taichi(vertices: Floats, normals: Floats) -> tuple[Work, Work, Callabl
             gamma[i] = total / (math.pi * (VERTICES - 2))
 
     @ti.kernel
-    def ppca():  # noqa: ANN202
+    def ppca():
         for i in range(count):
             us = ti.Vector([0.0] * VERTICES)
             vs = ti.Vector([0.0] * VERTICES)

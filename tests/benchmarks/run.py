@@ -13,6 +13,7 @@ import caustic_error
 import estimate_irradiance
 import find_neighbors
 import relax
+import run_scripts
 import start_up
 import trace_paths
 from measure import Subject, print_subject
@@ -25,6 +26,7 @@ SUBJECTS: dict[str, Callable[[], Subject]] = {
     "build_tree": build_tree.measure,
     "find_neighbors": find_neighbors.measure,
     "estimate_irradiance": estimate_irradiance.measure,
+    "run_scripts": run_scripts.measure,
     "relax": relax.measure,
     "caustic_error": caustic_error.measure,
     "start_up": start_up.measure,

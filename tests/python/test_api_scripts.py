@@ -115,7 +115,7 @@ def test_a_script_is_a_path_or_a_text(photons: pl.PhotonMap, tmp_path: Path) -> 
     for script in (path, str(path), HEIGHT, pl.compile_script(path)):
         photons.run_script(script)
         assert photons.parameter_names == ("LEVEL",)
-    with pytest.raises(pl.FileFormatError, match="absent.photon"):
+    with pytest.raises(pl.FileFormatError, match=r"absent\.photon"):
         photons.run_script("absent.photon")
     assert photons.provenance["script"]["name"] == "height.photon"
     assert photons.provenance["script"]["hash"] == pl.compile_script(path).hash

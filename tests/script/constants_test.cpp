@@ -30,6 +30,8 @@ TEST(ScriptConstants, are_variables_given_one_value_everywhere) {
     EXPECT_EQ(find_constant("a = 1; expose a range 0, 2;", "a"), std::nullopt);
     EXPECT_EQ(find_constant("a = getNumPhotons();", "a"), std::nullopt);
     EXPECT_EQ(find_constant("a = 0.1;", "a"), double(0.1f));
+    EXPECT_EQ(find_constant("a = 0.0; a = -0.0;", "a"), std::nullopt);
+    EXPECT_EQ(find_constant("n = getNumPhotons(); if (n > 1) a = 2; b = a;", "b"), std::nullopt); // a may hold nothing
     EXPECT_EQ(find_constant("x = 1;", "E"), double(float(M_E)));
     EXPECT_EQ(find_constant("a = 2147483647 + 1;", "a"), -2147483648.0);
     EXPECT_EQ(find_constant("a = max(3, 4) + sqrt(16) + int(2.9) + (1 < 2 ? 10 : 20);", "a"), 20.0);

@@ -127,7 +127,8 @@ void expect_same_specials(const std::string& call, const std::function<float(flo
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         const float expected = reference(pairs[i].x, pairs[i].y), found = outputs[i].x;
         if (std::isnan(expected) || std::isnan(found)) {
-            EXPECT_EQ(std::isnan(expected), std::isnan(found)) << call << ' ' << pairs[i].x << ' ' << pairs[i].y << " gives " << found << " not " << expected;
+            EXPECT_EQ(std::isnan(expected), std::isnan(found))
+                << call << ' ' << pairs[i].x << ' ' << pairs[i].y << " gives " << found << " not " << expected;
             continue;
         }
         EXPECT_EQ(std::signbit(expected), std::signbit(found)) << call << ' ' << pairs[i].x << ' ' << pairs[i].y;
@@ -139,7 +140,8 @@ void expect_same_specials(const std::string& call, const std::function<float(flo
 }
 
 TEST(ScriptMath, special_numbers_are_as_in_the_reference) {
-    expect_same_specials("script_atan2(v.x, v.y)", [](float y, float x) { return float(std::atan2(double(y), double(x))); });
+    expect_same_specials("script_atan2(v.x, v.y)",
+                         [](float y, float x) { return float(std::atan2(double(y), double(x))); });
     expect_same_specials("script_pow(v.x, v.y)", compute_power);
     expect_same_specials("script_min(v.x, v.y)", compute_minimum);
     expect_same_specials("script_max(v.x, v.y)", compute_maximum);
@@ -196,12 +198,14 @@ TEST(ScriptMath, hue_is_within_four_ulp_of_one) {
 std::vector<glm::vec4> sample_integers() {
     std::mt19937 random(3);
     std::vector<glm::vec4> inputs;
-    const std::int32_t corners[] = {0, 1, -1, 2, -2, 3, -3, 7, 31, 32, 33, 46341, -46341, 2147483647, -2147483647, std::numeric_limits<std::int32_t>::min()};
+    const std::int32_t corners[] = {0,  1,  -1, 2,     -2,     3,          -3,          7,
+                                    31, 32, 33, 46341, -46341, 2147483647, -2147483647, -2147483647 - 1};
     for (const std::int32_t x : corners)
         for (const std::int32_t y : corners)
             inputs.emplace_back(std::bit_cast<float>(x), std::bit_cast<float>(y), 0, 0);
     for (int i = 0; i < 4096; ++i)
-        inputs.emplace_back(std::bit_cast<float>(std::int32_t(random())), std::bit_cast<float>(std::int32_t(random() >> random() % 31)), 0, 0);
+        inputs.emplace_back(std::bit_cast<float>(std::uint32_t(random())),
+                            std::bit_cast<float>(std::uint32_t(random() >> random() % 31)), 0, 0);
     return inputs;
 }
 
@@ -215,22 +219,24 @@ TEST(ScriptMath, integers_are_as_in_the_reference) {
         {"script_mod(b.x, b.y)", [](std::int32_t x, std::int32_t y) { return compute_mod(x, y); }},
         {"script_abs(b.x)", [](std::int32_t x, std::int32_t) { return x < 0 ? subtract_wrapping(0, x) : x; }},
         {"script_sign(b.x)", [](std::int32_t x, std::int32_t) { return (x > 0) - (x < 0); }},
-        {"script_pow(b.x, b.y & 63, 0u)", [](std::int32_t x, std::int32_t y) { return raise_integer(x, y & 63).value; }},
+        {"script_pow(b.x, b.y & 63, 0u)",
+         [](std::int32_t x, std::int32_t y) { return raise_integer(x, y & 63).value; }},
     };
     const std::vector<glm::vec4> inputs = sample_integers();
     for (const Call& call : calls) {
         const std::vector<glm::vec4> outputs = evaluate(call.text, inputs);
         for (std::size_t i = 0; i < inputs.size(); ++i) {
             const auto x = std::bit_cast<std::int32_t>(inputs[i].x), y = std::bit_cast<std::int32_t>(inputs[i].y);
-            ASSERT_EQ(std::bit_cast<std::int32_t>(outputs[i].x), call.reference(x, y)) << call.text << ' ' << x << ' ' << y;
+            ASSERT_EQ(std::bit_cast<std::int32_t>(outputs[i].x), call.reference(x, y))
+                << call.text << ' ' << x << ' ' << y;
         }
     }
 }
 
 TEST(ScriptMath, conversions_to_integers_are_as_in_the_reference) {
     std::vector<glm::vec4> inputs = sample_magnitudes(-5, 34);
-    for (const float x : {0.5f, 1.5f, 2.5f, -0.5f, -1.5f, 0.49999997f, -0.49999997f, 8388607.5f, 8388609.0f, 2147483520.0f,
-                          2147483648.0f, -2147483648.0f, -2147483904.0f, INF, -INF, QUIET_NAN})
+    for (const float x : {0.5f, 1.5f, 2.5f, -0.5f, -1.5f, 0.49999997f, -0.49999997f, 8388607.5f, 8388609.0f,
+                          2147483520.0f, 2147483648.0f, -2147483648.0f, -2147483904.0f, INF, -INF, QUIET_NAN})
         inputs.emplace_back(x);
     const std::pair<const char*, std::function<float(float)>> calls[] = {
         {"script_int(v.x, 0u)", [](float x) { return std::trunc(x); }},
@@ -251,7 +257,8 @@ TEST(ScriptMath, conversions_to_integers_are_as_in_the_reference) {
 TEST(ScriptMath, random_numbers_are_those_of_the_host) {
     const std::vector<glm::vec4> inputs = sample_integers(), outputs = evaluate("script_random(b.x, b.y)", inputs);
     for (std::size_t i = 0; i < inputs.size(); ++i)
-        ASSERT_EQ(outputs[i].x, draw_random(7, std::bit_cast<std::int32_t>(inputs[i].x), std::bit_cast<std::int32_t>(inputs[i].y)));
+        ASSERT_EQ(outputs[i].x, draw_random(7, std::bit_cast<std::int32_t>(inputs[i].x),
+                                            std::bit_cast<std::int32_t>(inputs[i].y)));
 }
 
 } // namespace

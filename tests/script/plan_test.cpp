@@ -37,7 +37,8 @@ struct Case {
 };
 
 // After a declared parameter, so that bodies may set it.
-std::string complete(const std::string& text) { return "declarePhotonParameter(3, 0, 1);\nn = getNumPhotons();\n" + text; }
+std::string complete(const std::string& text) { return "declarePhotonParameter(3, 0, 1);\nn = "
+                                        "getNumPhotons();\n" + text; }
 
 class Parallel : public ::testing::TestWithParam<Case> {};
 class Serial : public ::testing::TestWithParam<Case> {};
@@ -67,13 +68,18 @@ TEST_P(Serial, loop_runs_serially_and_says_why) {
 
 constexpr Case PARALLEL[] = {
     {"local", "for (i = 0; i < n; i++) { x = i * 2; setPhotonParameter(i, 3, x); }"},
-    {"local on both paths", "for (i = 0; i < n; i++) { if (i % 2 == 0) x = 1; else x = 2; setPhotonParameter(i, 3, x); }"},
+    {"local on both paths", "for (i = 0; i < n; i++) { if (i % 2 == 0) x = 1; else x = 2; setPhotonParameter(i, 3, "
+                            "x); }"},
     {"local behind continue", "for (i = 0; i < n; i++) { if (i < 3) continue; x = 1; setPhotonParameter(i, 3, x); }"},
-    {"local set by a loop that runs at least once", "for (i = 0; i < n; i++) { do { x = 1; } while (x > 2); setPhotonParameter(i, 3, x); }"},
-    {"local of a later loop too", "for (i = 0; i < n; i++) { x = i; } for (i = 0; i < n; i++) { x = 2; setPhotonParameter(i, 3, x); }"},
-    {"local in a uniform loop", "for (t = 0; t < 3; t++) for (i = 0; i < n; i++) { x = t; setPhotonParameter(i, 3, x); }"},
+    {"local set by a loop that runs at least once", "for (i = 0; i < n; i++) { do { x = 1; } while (x > 2); "
+                                        "setPhotonParameter(i, 3, x); }"},
+    {"local of a later loop too", "for (i = 0; i < n; i++) { x = i; } for (i = 0; i < n; i++) { x = 2; "
+                                  "setPhotonParameter(i, 3, x); }"},
+    {"local in a uniform loop", "for (t = 0; t < 3; t++) for (i = 0; i < n; i++) { x = t; setPhotonParameter(i, 3, "
+                                "x); }"},
     {"assigned again before it is read after the loop", "for (i = 0; i < n; i++) { x = i; } x = 3; print(\"x\", x);"},
-    {"array declared in the body", "for (i = 0; i < n; i++) { float c[4]; c[i % 4] += 2; setPhotonParameter(i, 3, c[1]); }"},
+    {"array declared in the body", "for (i = 0; i < n; i++) { float c[4]; c[i % 4] += 2; setPhotonParameter(i, 3, "
+                                   "c[1]); }"},
     {"loop variable read after the loop", "for (i = 0; i < n; i++) { x = i; } print(\"n\", i);"},
     {"uniform", "a = 4; for (i = 0; i < n; i++) setPhotonParameter(i, 3, a);"},
     {"uniform array", "float w[3]; w[1] = 2; for (i = 0; i < n; i++) setPhotonParameter(i, 3, w[i % 3]);"},
@@ -88,27 +94,45 @@ constexpr Case PARALLEL[] = {
     {"maximum", "s = 9.5; for (i = 0; i < n; i++) { s = max(s, i); } print(\"s\", s);"},
     {"minimum by if", "s = 9; for (i = 0; i < n; i++) if (i < s) s = i; print(\"s\", s);"},
     {"maximum by if, turned around", "s = 9; for (i = 0; i < n; i++) { if (s < i) { s = i; } } print(\"s\", s);"},
-    {"arg-min", "s = 1e9; k = -1; for (i = 0; i < n; i++) { e = i * 0.5; if (e < s) { s = e; k = i; } } print(\"k\", k, s);"},
-    {"arg-max", "s = -1; k = -1; for (i = 0; i < n; i++) { e = getPhotonPower(i, 0); if (s < e) { s = e; k = i; } } print(\"k\", k, s);"},
-    {"arg-max of a call, written twice", "s = -1; k = -1; for (i = 0; i < n; i++) if (getPhotonPower(i, 0) > s) { s = getPhotonPower(i, 0); k = i; } print(\"k\", k, s);"},
-    {"arg-min with more than one", "s = 9; a = 0; b = 0; for (i = 0; i < n; i++) if (i < s) { b = i * 2; s = i; a = 3; } print(\"k\", a, b);"},
-    {"arg-min in an inner loop", "s = 9; a = 0; b = 0; for (i = 0; i < n; i++) for (j = 0; j < 4; j++) { d = i * j; if (d < s) { s = d; a = i; b = j; } } print(\"k\", a, b);"},
-    {"array sums", "float h[8]; for (i = 0; i < n; i++) { k = i % 8; h[k] += 0.5; h[k]++; h[3] = h[3] + 1; } print(\"h\", h[2]);"},
+    {"arg-min", "s = 1e9; k = -1; for (i = 0; i < n; i++) { e = i * 0.5; if (e < s) { s = e; k = i; } } "
+                "print(\"k\", k, s);"},
+    {"arg-max", "s = -1; k = -1; for (i = 0; i < n; i++) { e = getPhotonPower(i, 0); if (s < e) { s = e; k = i; } } "
+                "print(\"k\", k, s);"},
+    {"arg-max of a call, written twice", "s = -1; k = -1; for (i = 0; i < n; i++) if (getPhotonPower(i, 0) > s) { s "
+                                        "= getPhotonPower(i, 0); k = i; } print(\"k\", k, s);"},
+    {"arg-min with more than one", "s = 9; a = 0; b = 0; for (i = 0; i < n; i++) if (i < s) { b = i * 2; s = i; a = "
+                                   "3; } print(\"k\", a, b);"},
+    {"arg-min in an inner loop", "s = 9; a = 0; b = 0; for (i = 0; i < n; i++) for (j = 0; j < 4; j++) { d = i * j; "
+                                 "if (d < s) { s = d; a = i; b = j; } } print(\"k\", a, b);"},
+    {"array sums", "float h[8]; for (i = 0; i < n; i++) { k = i % 8; h[k] += 0.5; h[k]++; h[3] = h[3] + 1; } "
+                   "print(\"h\", h[2]);"},
     {"array minimum", "float h[8]; for (i = 0; i < n; i++) { h[i % 8] = min(h[i % 8], i); } print(\"h\", h[2]);"},
     {"array maximum by if", "float h[8]; for (i = 0; i < n; i++) if (i > h[i % 8]) h[i % 8] = i; print(\"h\", h[2]);"},
-    {"array arg-max", "float h[8]; int who[8]; for (i = 0; i < n; i++) { k = i % 8; if (i > h[k]) { h[k] = i; who[k] = i; } } print(\"h\", h[2], who[2]);"},
-    {"loop through a function's parameter", "function f(p) { setPhotonParameter(p, 3, 1); } for (i = 0; i < n; i++) f(i);"},
-    {"through two functions", "function g(q) { setPhotonParameter(q, 3, getPhotonParameter(q, 3)); } function f(p) { g(p); } for (i = 0; i < n; i++) f(i);"},
-    {"a function's own names", "function f(a) { t = a * 2; return t; } for (i = 0; i < n; i++) setPhotonParameter(i, 3, f(i) + f(2));"},
-    {"own parameters read while set", "for (i = 0; i < n; i++) setPhotonParameter(i, 3, getPhotonParameter(i, 3) + 1);"},
-    {"others' position read while parameters are set", "for (i = 0; i < n; i++) setPhotonParameter(i, 3, getPhotonParameter((i + 1) % n, 0));"},
-    {"others' parameters read", "for (i = 0; i < n; i++) { x = getPhotonParameter(n - 1 - i, 3); setPhotonColourEncoding(i, x, x, x); }"},
-    {"local PCA", "for (i = 0; i < n; i++) { resetPCA2D(); pushPCA2D(i, 1); pushPCA2D(2, i); if (decomposePCA2D() == 0) continue; setPhotonParameter(i, 3, getPCAEigenvalue(0)); }"},
-    {"global PCA", "for (i = 0; i < n; i++) { pushPCA3D(i, 1, 2); } if (decomposePCA3D()) { print(\"v\", getPCAEigenvalue(0)); }"},
-    {"decomposition from before", "pushPCA2D(1, 2); pushPCA2D(3, 4); decomposePCA2D(); for (i = 0; i < n; i++) setPhotonParameter(i, 3, getPCAEigenvector(0, 1));"},
+    {"array arg-max", "float h[8]; int who[8]; for (i = 0; i < n; i++) { k = i % 8; if (i > h[k]) { h[k] = i; "
+                      "who[k] = i; } } print(\"h\", h[2], who[2]);"},
+    {"loop through a function's parameter", "function f(p) { setPhotonParameter(p, 3, 1); } for (i = 0; i < n; i++) "
+                                        "f(i);"},
+    {"through two functions", "function g(q) { setPhotonParameter(q, 3, getPhotonParameter(q, 3)); } function f(p) "
+                              "{ g(p); } for (i = 0; i < n; i++) f(i);"},
+    {"a function's own names", "function f(a) { t = a * 2; return t; } for (i = 0; i < n; i++) "
+                               "setPhotonParameter(i, 3, f(i) + f(2));"},
+    {"own parameters read while set", "for (i = 0; i < n; i++) setPhotonParameter(i, 3, getPhotonParameter(i, 3) + "
+                                      "1);"},
+    {"others' position read while parameters are set", "for (i = 0; i < n; i++) setPhotonParameter(i, 3, "
+                                        "getPhotonParameter((i + 1) % n, 0));"},
+    {"others' parameters read", "for (i = 0; i < n; i++) { x = getPhotonParameter(n - 1 - i, 3); "
+                                "setPhotonColourEncoding(i, x, x, x); }"},
+    {"local PCA", "for (i = 0; i < n; i++) { resetPCA2D(); pushPCA2D(i, 1); pushPCA2D(2, i); if (decomposePCA2D() "
+                  "== 0) continue; setPhotonParameter(i, 3, getPCAEigenvalue(0)); }"},
+    {"global PCA", "for (i = 0; i < n; i++) { pushPCA3D(i, 1, 2); } if (decomposePCA3D()) { print(\"v\", "
+                   "getPCAEigenvalue(0)); }"},
+    {"decomposition from before", "pushPCA2D(1, 2); pushPCA2D(3, 4); decomposePCA2D(); for (i = 0; i < n; i++) "
+                                  "setPhotonParameter(i, 3, getPCAEigenvector(0, 1));"},
     {"break of an inner loop", "for (i = 0; i < n; i++) for (j = 0; j < 9; j++) if (j > i) break;"},
-    {"return of a function", "function f(a) { for (j = 0; j < 5; j++) if (j > a) return j; return 0; } for (i = 0; i < n; i++) setPhotonParameter(i, 3, f(i));"},
-    {"neighbours", "for (i = 0; i < n; i++) { nn = getKNN(i, 5); s = 0; for (j = 0; j < length(nn); j++) s += nn[j]; setPhotonParameter(i, 3, s); }"},
+    {"return of a function", "function f(a) { for (j = 0; j < 5; j++) if (j > a) return j; return 0; } for (i = 0; "
+                             "i < n; i++) setPhotonParameter(i, 3, f(i));"},
+    {"neighbours", "for (i = 0; i < n; i++) { nn = getKNN(i, 5); s = 0; for (j = 0; j < length(nn); j++) s += "
+                   "nn[j]; setPhotonParameter(i, 3, s); }"},
     {"k-means", R"(
 float cx[8]; float cy[8]; float sx[8]; float sy[8]; int count[8];
 for (c = 0; c < 8; c++) { cx[c] = random(c, 1); cy[c] = random(c, 2); }
@@ -134,11 +158,14 @@ while (moved > 0.001) {
 };
 
 constexpr Case SERIAL[] = {
-    {"local on one path", "for (i = 0; i < n; i++) { if (i % 2 == 0) x = 1; setPhotonParameter(i, 3, x); } x = 0;", "'x'"},
-    {"set by a loop that may not run", "for (i = 0; i < n; i++) { for (j = 0; j < i; j++) x = 1; setPhotonParameter(i, 3, x); }", "'x'"},
+    {"local on one path", "for (i = 0; i < n; i++) { if (i % 2 == 0) x = 1; setPhotonParameter(i, 3, x); } x = "
+                          "0;", "'x'"},
+    {"set by a loop that may not run", "for (i = 0; i < n; i++) { for (j = 0; j < i; j++) x = 1; "
+                                       "setPhotonParameter(i, 3, x); }", "'x'"},
     {"read before it is assigned", "x = 0; for (i = 0; i < n; i++) { setPhotonParameter(i, 3, x); x = i; }", "'x'"},
     {"read after the loop", "for (i = 0; i < n; i++) { x = i * 2; } print(\"x\", x);", "read after the loop (line 3)"},
-    {"read around a uniform loop", "x = 0; for (t = 0; t < 3; t++) { y = x; for (i = 0; i < n; i++) { x = i; } }", "'x'"},
+    {"read around a uniform loop", "x = 0; for (t = 0; t < 3; t++) { y = x; for (i = 0; i < n; i++) { x = i; } "
+                                   "}", "'x'"},
     {"array written at a place", "float a[4]; for (i = 0; i < n; i++) { a[i % 4] = i; }  print(\"a\", a[0]);", "'a'"},
     {"sum and read", "s = 0; for (i = 0; i < n; i++) { s += 1; setPhotonParameter(i, 3, s); } print(\"s\", s);", "'s'"},
     {"sum in its own operand", "s = 0; for (i = 0; i < n; i++) { s += s + 1; } print(\"s\", s);", "'s'"},
@@ -147,29 +174,50 @@ constexpr Case SERIAL[] = {
     {"product", "s = 1; for (i = 0; i < n; i++) { s *= 2; } print(\"s\", s);", "'s'"},
     {"difference the wrong way", "s = 1; for (i = 0; i < n; i++) { s = i - s; } print(\"s\", s);", "'s'"},
     {"sum and minimum", "s = 1; for (i = 0; i < n; i++) { s += 2; s = min(s, i); } print(\"s\", s);", "'s' is both"},
-    {"minimum and maximum", "s = 1; for (i = 0; i < n; i++) { s = min(s, i); s = max(s, 2); } print(\"s\", s);", "'s' is both"},
+    {"minimum and maximum", "s = 1; for (i = 0; i < n; i++) { s = min(s, i); s = max(s, 2); } print(\"s\", "
+                            "s);", "'s' is both"},
     {"sum that starts anew", "s = 1; for (i = 0; i < n; i++) { s += 2; if (i == 7) s = 0; } print(\"s\", s);", "'s'"},
-    {"arg-min that is read", "s = 9; k = 0; for (i = 0; i < n; i++) { if (i < s) { s = i; k = i; } setPhotonParameter(i, 3, k); } print(\"k\", k);", "'k'"},
-    {"arg-min that is assigned elsewhere", "s = 9; k = 0; for (i = 0; i < n; i++) { k = 2; if (i < s) { s = i; k = i; } } print(\"k\", k);", "'k'"},
-    {"arg-min that tells whether it won", "s = 9; for (i = 0; i < n; i++) { k = 0; if (i < s) { s = i; k = 1; } setPhotonParameter(i, 3, k); } print(\"s\", s);", "'s'"},
-    {"arg-min, ties to the last", "s = 9; k = 0; for (i = 0; i < n; i++) { if (i <= s) { s = i; k = i; } } print(\"k\", k);", "'s'"},
-    {"arg-min of something else", "s = 9; k = 0; for (i = 0; i < n; i++) { if (i < s) { s = i + 1; k = i; } } print(\"k\", k);", "'s'"},
-    {"arg-min with an else", "s = 9; k = 0; for (i = 0; i < n; i++) { if (i < s) { s = i; } else k = i; } print(\"k\", k, s);", "'s'"},
-    {"arg-min whose second part is missing once", "s = 9; k = 0; for (i = 0; i < n; i++) { if (i < s) { s = i; k = i; } if (2 * i < s) { s = 2 * i; } } print(\"k\", k);", "'k'"},
-    {"array arg-min with a scalar", "float h[8]; k = 0; for (i = 0; i < n; i++) { if (i < h[i % 8]) { h[i % 8] = i; k = i; } } print(\"k\", k, h[0]);", "'h'"},
-    {"array minimum at another place", "float h[8]; for (i = 0; i < n; i++) { if (i < h[i % 8]) h[i % 4] = i; } print(\"h\", h[0]);", "'h'"},
-    {"array sum and read", "float h[8]; for (i = 0; i < n; i++) { h[i % 8] += 1; x = h[0]; } print(\"h\", h[0]);", "'h'"},
-    {"array sum in its own index", "int h[8]; for (i = 0; i < n; i++) { h[h[0] % 8] += 1; } print(\"h\", h[0]);", "'h'"},
+    {"arg-min that is read", "s = 9; k = 0; for (i = 0; i < n; i++) { if (i < s) { s = i; k = i; } "
+                             "setPhotonParameter(i, 3, k); } print(\"k\", k);", "'k'"},
+    {"arg-min that is assigned elsewhere", "s = 9; k = 0; for (i = 0; i < n; i++) { k = 2; if (i < s) { s = i; k = "
+                                        "i; } } print(\"k\", k);", "'k'"},
+    {"arg-min that tells whether it won", "s = 9; for (i = 0; i < n; i++) { k = 0; if (i < s) { s = i; k = 1; } "
+                                        "setPhotonParameter(i, 3, k); } print(\"s\", s);", "'s'"},
+    {"arg-min, ties to the last", "s = 9; k = 0; for (i = 0; i < n; i++) { if (i <= s) { s = i; k = i; } } "
+                                  "print(\"k\", k);", "'s'"},
+    {"arg-min of something else", "s = 9; k = 0; for (i = 0; i < n; i++) { if (i < s) { s = i + 1; k = i; } } "
+                                  "print(\"k\", k);", "'s'"},
+    {"arg-min with an else", "s = 9; k = 0; for (i = 0; i < n; i++) { if (i < s) { s = i; } else k = i; } "
+                             "print(\"k\", k, s);", "'s'"},
+    {"arg-min whose second part is missing once", "s = 9; k = 0; for (i = 0; i < n; i++) { if (i < s) { s = i; k = "
+                                        "i; } if (2 * i < s) { s = 2 * i; } } print(\"k\", k);", "'k'"},
+    {"array arg-min with a scalar", "float h[8]; k = 0; for (i = 0; i < n; i++) { if (i < h[i % 8]) { h[i % 8] = i; "
+                                    "k = i; } } print(\"k\", k, h[0]);", "'h'"},
+    {"array minimum at another place", "float h[8]; for (i = 0; i < n; i++) { if (i < h[i % 8]) h[i % 4] = i; } "
+                                       "print(\"h\", h[0]);", "'h'"},
+    {"array sum and read", "float h[8]; for (i = 0; i < n; i++) { h[i % 8] += 1; x = h[0]; } print(\"h\", "
+                           "h[0]);", "'h'"},
+    {"array sum in its own index", "int h[8]; for (i = 0; i < n; i++) { h[h[0] % 8] += 1; } print(\"h\", "
+                                   "h[0]);", "'h'"},
     {"break", "for (i = 0; i < n; i++) { if (i > 5) break; }", "break"},
-    {"parameter of another photon set", "for (i = 0; i < n; i++) { setPhotonParameter((i + 1) % n, 3, 1); }", "setPhotonParameter"},
-    {"parameter of a copy of the photon set", "for (i = 0; i < n; i++) { p = i; setPhotonParameter(p, 3, 1); }", "setPhotonParameter"},
-    {"color of another photon set", "for (i = 0; i < n; i++) { setPhotonColourEncoding(0, 1, 1, 1); }", "setPhotonColourEncoding"},
-    {"others' parameters read while set", "for (i = 0; i < n; i++) { setPhotonParameter(i, 3, getPhotonParameter(0, 3)); }", "getPhotonParameter"},
-    {"PCA without a reset", "for (i = 0; i < n; i++) { pushPCA2D(i, 1); decomposePCA2D(); setPhotonParameter(i, 3, getPCAEigenvalue(0)); }", "reset"},
-    {"PCA reset on one path", "for (i = 0; i < n; i++) { if (i > 3) resetPCA2D(); pushPCA2D(i, 1); decomposePCA2D(); }", "reset"},
-    {"decomposition read after the loop", "for (i = 0; i < n; i++) { resetPCA2D(); pushPCA2D(i, 1); decomposePCA2D(); } print(\"v\", getPCAEigenvalue(0));", "decomposition"},
-    {"last PCA decomposed after the loop", "for (i = 0; i < n; i++) { resetPCA2D(); pushPCA2D(i, 1); } decomposePCA2D();", "PCA"},
-    {"function writes at another photon", "function f(p) { p = p + 1; setPhotonParameter(p, 3, 1); } for (i = 0; i < n; i++) f(i);", "setPhotonParameter"},
+    {"parameter of another photon set", "for (i = 0; i < n; i++) { setPhotonParameter((i + 1) % n, 3, 1); "
+                                        "}", "setPhotonParameter"},
+    {"parameter of a copy of the photon set", "for (i = 0; i < n; i++) { p = i; setPhotonParameter(p, 3, 1); "
+                                        "}", "setPhotonParameter"},
+    {"color of another photon set", "for (i = 0; i < n; i++) { setPhotonColourEncoding(0, 1, 1, 1); "
+                                    "}", "setPhotonColourEncoding"},
+    {"others' parameters read while set", "for (i = 0; i < n; i++) { setPhotonParameter(i, 3, getPhotonParameter(0, "
+                                        "3)); }", "getPhotonParameter"},
+    {"PCA without a reset", "for (i = 0; i < n; i++) { pushPCA2D(i, 1); decomposePCA2D(); setPhotonParameter(i, 3, "
+                            "getPCAEigenvalue(0)); }", "reset"},
+    {"PCA reset on one path", "for (i = 0; i < n; i++) { if (i > 3) resetPCA2D(); pushPCA2D(i, 1); "
+                              "decomposePCA2D(); }", "reset"},
+    {"decomposition read after the loop", "for (i = 0; i < n; i++) { resetPCA2D(); pushPCA2D(i, 1); "
+                                        "decomposePCA2D(); } print(\"v\", getPCAEigenvalue(0));", "decomposition"},
+    {"last PCA decomposed after the loop", "for (i = 0; i < n; i++) { resetPCA2D(); pushPCA2D(i, 1); } "
+                                        "decomposePCA2D();", "PCA"},
+    {"function writes at another photon", "function f(p) { p = p + 1; setPhotonParameter(p, 3, 1); } for (i = 0; i "
+                                        "< n; i++) f(i);", "setPhotonParameter"},
 };
 
 std::string name_case(const ::testing::TestParamInfo<Case>& info) {
@@ -202,7 +250,8 @@ print("all", s, lo, hi, least, who);)"));
 }
 
 TEST(Plan, a_least_value_within_an_iteration_is_no_reduction) {
-    const Planned planned(complete("for (i = 0; i < n; i++) { b = 9; for (j = 0; j < 4; j++) { d = i * j; if (d < b) b = d; } "
+    const Planned planned(complete("for (i = 0; i < n; i++) { b = 9; for (j = 0; j < 4; j++) { d = i * j; if (d < "
+                                   "b) b = d; } "
                                    "setPhotonParameter(i, 3, b); }"));
     EXPECT_EQ(planned.find_use("b").role, Role::local);
     EXPECT_TRUE(planned.plan.loops[0].choices.empty());
@@ -241,7 +290,8 @@ for (i = 0; i < n; i++) { a = getKNN(i); b = getKNN(a[0], 7); x = f(i, 12); })")
 }
 
 TEST(Plan, only_columns_that_are_read_are_asked_for) {
-    const Planned planned(complete("for (i = 0; i < n; i++) { x = getPhotonParameter(i, 1) + getPathVertex(i, 0, X); }"));
+    const Planned planned(complete("for (i = 0; i < n; i++) { x = getPhotonParameter(i, 1) + getPathVertex(i, 0, "
+                                   "X); }"));
     EXPECT_EQ(planned.plan.loops[0].columns, COLUMN_POSITION | COLUMN_PATH_STARTS | COLUMN_PATH_VERTICES);
 }
 
@@ -253,7 +303,8 @@ TEST(Plan, only_loops_without_a_bound_need_fuel) {
 }
 
 TEST(Plan, variables_that_may_be_unset_are_known) {
-    const Planned planned(complete("if (n > 3) u = 2; for (i = 0; i < n; i++) { float x; if (i > 2) x = 1; y = x + u; z = y; }"));
+    const Planned planned(complete("if (n > 3) u = 2; for (i = 0; i < n; i++) { float x; if (i > 2) x = 1; y = x + "
+                                   "u; z = y; }"));
     const PhotonLoop& loop = planned.plan.loops[0];
     std::set<std::string> names;
     for (const std::uint32_t variable : loop.unset_reads)

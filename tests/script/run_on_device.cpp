@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "script/run_on_device.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <random>
@@ -59,7 +60,7 @@ PhotonMap upload(const HostPhotons& photons) {
 }
 
 bool are_near(float a, float b, const Comparison& comparison) {
-    if (std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b) || (std::isnan(a) && std::isnan(b)) || a == b)
+    if ((std::isnan(a) && std::isnan(b)) || a == b)
         return true;
     const float size = std::max(std::abs(a), std::abs(b));
     const double ulp = std::nextafter(size, std::numeric_limits<float>::infinity()) - size;
@@ -116,9 +117,14 @@ void expect_same_reports(const Ran& device, const Ran& host) {
         expected.insert(describe(host.program, fault));
     EXPECT_EQ(found, expected);
     EXPECT_EQ(device.outputs.prints, host.outputs.prints);
-    ASSERT_EQ(device.outputs.histograms.size(), host.outputs.histograms.size());
+    std::vector<HistogramCounts> met = device.outputs.histograms;
+    std::erase_if(met, [](const HistogramCounts& h) { // a pass has those that no photon met, too
+        return h.below + h.above + h.non_finite == 0 &&
+               std::all_of(h.counts.begin(), h.counts.end(), [](std::uint32_t count) { return count == 0; });
+    });
+    ASSERT_EQ(met.size(), host.outputs.histograms.size());
     for (std::size_t i = 0; i < host.outputs.histograms.size(); ++i) {
-        const HistogramCounts &a = device.outputs.histograms[i], &b = host.outputs.histograms[i];
+        const HistogramCounts &a = met[i], &b = host.outputs.histograms[i];
         EXPECT_EQ(a.counts, b.counts);
         EXPECT_EQ(a.below, b.below);
         EXPECT_EQ(a.above, b.above);
@@ -133,7 +139,7 @@ void expect_same_reports(const Ran& device, const Ran& host) {
 
 } // namespace
 
-HostPhotons make_random_photons(std::uint32_t count, std::uint32_t seed) {
+HostPhotons make_random_photons(std::uint32_t count, std::uint32_t seed, std::uint32_t given) {
     std::mt19937 random(seed);
     const auto draw = [&random](float low, float high) {
         return low + (high - low) * float(random() >> 8) / 16777216.0f;
@@ -162,7 +168,7 @@ HostPhotons make_random_photons(std::uint32_t count, std::uint32_t seed) {
         add_unit(photons.normals);
         photons.power.insert(photons.power.end(), {draw(0, 1), draw(0, 2), draw(0, 3)});
         photons.emitters.push_back(std::int32_t(random() % 3));
-        const std::uint32_t vertices = 2 + random() % 6;
+        const std::uint32_t vertices = given > 0 ? given : 2 + random() % 6;
         for (std::uint32_t j = 0; j < vertices; ++j) {
             add_point(photons.path_vertices);
             add_unit(photons.path_normals);

@@ -8,8 +8,8 @@
 
 namespace photonloupe::script::tests {
 
-// Random photons on random paths of 2 to 7 vertices, in a world whose origin is elsewhere.
-HostPhotons make_random_photons(std::uint32_t count, std::uint32_t seed = 1);
+// Random photons on random paths of so many vertices (0: 2 to 7), in a world whose origin is elsewhere.
+HostPhotons make_random_photons(std::uint32_t count, std::uint32_t seed = 1, std::uint32_t vertices = 0);
 
 // As `interpret`. Throws where a pass cannot be compiled.
 Ran run_on_device(const std::string& text, HostPhotons photons, const RunSettings& settings = {});

@@ -26,8 +26,8 @@ from photonloupe.device import open_device
 
 SUMMARY = "the ring case study, pictures into out/demo/"
 DESCRIPTION = (
-    "Trace the gold ring, save its photon map, render its caustic, composite and photons; then relax a noisier map of "
-    "it in three ways and show them side by side."
+    "Trace the gold ring, save its photon map, render its caustic, composite and photons; run scripts over it and show "
+    "their parameters in false color; then relax a noisier map of it in three ways and show them side by side."
 )
 
 _SCENE = Path("scenes", "ring", "ring.gltf")
@@ -42,6 +42,16 @@ _PICTURES = (
     ("composite", "top", 0.0),
     ("photons", "close", 1.0),
 )
+
+# Scripts whose colors are shown, with what their exposed variables are set to: few enough turns of hue to tell apart.
+_SCRIPTS = Path("scenes", "scripts")
+_SHOWN_SCRIPTS: tuple[tuple[str, dict[str, float]], ...] = (
+    ("tortuosity", {"turns": 6}),
+    ("primal_trajectory", {"zoom": 4}),
+    ("ppca", {"turns": 2}),
+)
+_LAYERS = "primal_trajectory"
+_FALSE_COLOR_EXPOSURE = 1.0
 
 # The comparison. Random emission leaves the most to relax; on Sobol's the differences are the same but smaller.
 _COMPARED_PHOTONS = 100_000
@@ -87,10 +97,11 @@ def _find_root() -> Path:
 
 
 class _Demo:
-    """The scene, the device, the folder, and the list of what was made so far."""
+    """The scene, its scripts, the device, the folder, and the list of what was made so far."""
 
-    def __init__(self, scene: pl.Scene, folder: Path, device: pl.Device) -> None:
-        self.scene, self.folder, self.device = scene, folder, device
+    def __init__(self, root: Path, folder: Path, device: pl.Device) -> None:
+        self.scene, self.folder, self.device = pl.load_scene(root / _SCENE), folder, device
+        self.scripts = root / _SCRIPTS
         self.progress = choose_progress()
         self.made: list[dict[str, Any]] = []
 
@@ -101,6 +112,10 @@ class _Demo:
     def trace(self, count: int, emission: str) -> pl.PhotonMap:
         """Trace a map."""
         return pl.trace_photons(self.scene, count, emission=emission, device=self.device, progress=self.progress)
+
+    def run_script(self, photons: pl.PhotonMap, name: str, values: dict[str, float]) -> None:
+        """Give the photons the parameters and colors of a script."""
+        photons.run_script(self.scripts / f"{name}.photon", values=values, progress=self.progress)
 
     def render(self, photons: pl.PhotonMap, **settings: Any) -> pl.Image:
         """Render a square picture."""
@@ -133,10 +148,29 @@ def _show_ring(demo: _Demo) -> None:
         demo.note(path, f"{mode}, camera {camera}, {image.width} × {image.height}; beside it the EXR", watch)
 
 
+def _show_scripts(demo: _Demo) -> None:
+    """Show the ring in the colors of scripts."""
+    photons = demo.trace(_PHOTONS, "sobol")
+    sheet: dict[str, pl.Image] = {}
+    for name, values in _SHOWN_SCRIPTS:
+        watch = Stopwatch()
+        with watch.measure("all"):
+            demo.run_script(photons, name, values)
+            image = demo.render(photons, camera="top", mode="false-color", samples=_COMPARED_SAMPLES)
+            path = demo.save(image, f"script_{name}", _FALSE_COLOR_EXPOSURE)
+        sheet[f"{name}: {', '.join(photons.parameter_names)}"] = image
+        demo.note(path, f"false color of {name}.photon, camera top; beside it the EXR", watch)
+    path = demo.folder / "scripts.png"
+    watch = Stopwatch()
+    with watch.measure("all"):
+        build_contact_sheet(sheet, columns=len(sheet), exposure=_FALSE_COLOR_EXPOSURE).save(path)
+    demo.note(path, "the scripts side by side: where sheets of light cross, colors tell them apart", watch)
+
+
 def _compare_relaxations(demo: _Demo) -> None:
     """Relax one map in every way, and render the band of each."""
     photons = demo.trace(_COMPARED_PHOTONS, _COMPARED_EMISSION)
-    photons.set_parameters(pl.find_primal_trajectory(photons), names=("right", "up"))
+    demo.run_script(photons, _LAYERS, {})
     sheet: dict[str, pl.Image] = {}
     for way in _WAYS:
         watch = Stopwatch()
@@ -169,8 +203,9 @@ def run(arguments: argparse.Namespace) -> int:
     folder = Path(arguments.output) if arguments.output else root / "out" / "demo"
     folder.mkdir(parents=True, exist_ok=True)
     device = open_device(arguments.device)
-    demo = _Demo(pl.load_scene(root / _SCENE), folder, device)
+    demo = _Demo(root, folder, device)
     _show_ring(demo)
+    _show_scripts(demo)
     _compare_relaxations(demo)
 
     def write_table() -> list[str]:
