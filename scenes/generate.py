@@ -13,6 +13,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from extrusion import Corner, build_bar
 from gltf import (
     GltfWriter,
     Vector,
@@ -72,6 +73,74 @@ class SlabScene:
         return self.slab_top - self.slab_bottom
 
 
+@dataclass(frozen=True)
+class PrismScene:
+    """A glass wedge along z that stands on a diffuse floor y = 0, a point light beside it.
+
+    Its face away from the light is broken: a foot, a rounded bevel, and the main face. Angles are those that a face
+    leans inward from the vertical, in degrees.
+    """
+
+    name: str
+    height: float  # m
+    apex_width: float  # m, flat, before its edges are rounded
+    face_angle: float  # of the face toward the light and the main face
+    bevel_angles: tuple[float, float]  # of the bevel's lower and upper border
+    foot_angle: float
+    bevel_height: float  # m, where the tangents of the bevel's borders meet
+    bevel_radius: float  # m
+    join_radius: float  # m, of the edges between bevel and foot, bevel and main face
+    base_radius: float  # m
+    apex_radius: float  # m
+    half_length: float  # m
+    end_radius: float  # m
+    gap: float  # m, between base and floor: surfaces in one place would be met in no sure order
+    ior: float
+    light: Vector  # m
+    intensity: float  # W/sr
+    floor_half: float  # m
+    floor_reflectance: float
+    window_half: float  # m
+    segments: tuple[int, int, int] = (300, 24, 60)  # of the bevel, a join, a corner
+    end_segments: int = 8
+
+    def list_corners(self) -> list[Corner]:
+        """Corners of the cross-section, counter-clockwise from the base's corner away from the light."""
+        bevel, join, corner = self.segments
+        low, high = self.bevel_angles
+        middle = (0.0, self.bevel_height)
+        below = _lean(middle, low, -self._cut(self.bevel_radius, high - low) - self._cut_join(low - self.foot_angle))
+        above = _lean(middle, high, self._cut(self.bevel_radius, high - low) + self._cut_join(self.face_angle - high))
+        foot = _lean(below, self.foot_angle, (self.gap - below[1]) / math.cos(math.radians(self.foot_angle)))
+        top = _lean(above, self.face_angle, (self.height - above[1]) / math.cos(math.radians(self.face_angle)))
+        right = 0.5 * self.apex_width - top[0]  # the apex lies over x = 0
+        left = -0.5 * self.apex_width - math.tan(math.radians(self.face_angle)) * (self.height - self.gap)
+        return [
+            Corner(foot[0] + right, self.gap, self.base_radius, corner),
+            Corner(below[0] + right, below[1], self.join_radius, join),
+            Corner(middle[0] + right, middle[1], self.bevel_radius, bevel),
+            Corner(above[0] + right, above[1], self.join_radius, join),
+            Corner(0.5 * self.apex_width, self.height, self.apex_radius, corner),
+            Corner(-0.5 * self.apex_width, self.height, self.apex_radius, corner),
+            Corner(left, self.gap, self.base_radius, corner),
+        ]
+
+    @staticmethod
+    def _cut(radius: float, turn: float) -> float:
+        """What an arc takes off each of its sides."""
+        return radius * math.tan(math.radians(0.5 * turn))
+
+    def _cut_join(self, turn: float) -> float:
+        """The same for a join, and a hundredth of it, so that bevel and join do not overlap by rounding."""
+        return 1.01 * self._cut(self.join_radius, turn)
+
+
+def _lean(start: tuple[float, float], angle: float, length: float) -> tuple[float, float]:
+    """The point `length` up a face that leans to the left of the vertical by `angle` degrees."""
+    radians = math.radians(angle)
+    return start[0] - length * math.sin(radians), start[1] + length * math.cos(radians)
+
+
 RING = CylinderScene(
     name="ring",
     radius=1.0,
@@ -108,6 +177,30 @@ SLAB = SlabScene(
     floor_half=1.5,
     floor_reflectance=0.7,
     window_half=1.5,
+)
+
+# The bevel's light is a stripe upon that of the foot and the main face; scenes/prism/README.md says how it is used.
+PRISM = PrismScene(
+    name="prism",
+    height=0.6,
+    apex_width=0.02,
+    face_angle=15.0,
+    bevel_angles=(7.0, 12.0),
+    foot_angle=4.0,
+    bevel_height=0.178,
+    bevel_radius=0.265,
+    join_radius=0.004,
+    base_radius=0.01,
+    apex_radius=0.008,
+    half_length=0.3,
+    end_radius=0.003,
+    gap=0.002,
+    ior=1.5,
+    light=(-2.4, 1.15, 0.0),
+    intensity=10.0,
+    floor_half=2.0,
+    floor_reflectance=0.7,
+    window_half=1.2,
 )
 
 
@@ -155,7 +248,25 @@ def build_bowl() -> GltfWriter:
     return writer
 
 
-SCENES: dict[str, Callable[[], GltfWriter]] = {"ring": build_ring, "slab": build_slab, "bowl": build_bowl}
+def build_prism() -> GltfWriter:
+    """Glass wedge with a bevel across its far face, lit from the side."""
+    writer = GltfWriter(PRISM.name)
+    bar = build_bar(PRISM.list_corners(), PRISM.half_length, PRISM.end_radius, PRISM.end_segments)
+    writer.add_mesh("prism", bar, make_glass("glass", PRISM.ior, 2.0 * PRISM.half_length))
+    writer.add_mesh("floor", build_quad(PRISM.floor_half), make_diffuse("plaster", PRISM.floor_reflectance))
+    writer.add_point_light("lamp", PRISM.light, PRISM.intensity)
+    add_top_camera(writer, PRISM.window_half)
+    writer.add_camera("view", (1.25, 1.0, 1.5), (0.3, 0.16, 0.0), 0.6)
+    writer.add_camera("close", (0.36, 1.1, 0.0), (0.36, 0.0, 0.0), 0.16, up=(0.0, 0.0, -1.0))
+    return writer
+
+
+SCENES: dict[str, Callable[[], GltfWriter]] = {
+    "ring": build_ring,
+    "slab": build_slab,
+    "bowl": build_bowl,
+    "prism": build_prism,
+}
 
 
 def main() -> None:

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Predefined calls that are about photons: columns, paths, parameters, colors, neighbours.
+#include <algorithm>
+
 #include "script/emitter.h"
 
 namespace photonloupe::script {
@@ -134,6 +136,10 @@ std::string Emitter::keep_path(const Code& photon) {
 
 // A vertex or axis of a path: not looked at where the photon does not exist.
 Code Emitter::emit_vertex(const Expression& index, const std::string& path, Fault outside, const std::string& size) {
+    const auto names = [&](const PathCounter& counter) { return is_on_path(m_program, m_loop, counter, index); };
+    if (path == "own_path" && outside == Fault::vertex_index &&
+        std::any_of(m_path_counters.begin(), m_path_counters.end(), names))
+        return emit(index);
     if (path == "own_path")
         return emit_place(index, size, outside);
     return emit_place(index, size, outside, "int(" + path + ".y) - 1");

@@ -140,11 +140,19 @@ void Emitter::emit_loop(const Statement& s) {
         is_short &= !single.empty();
         last += (last.empty() ? "" : ", ") + single;
     }
+    const std::optional<PathCounter> counter =
+        m_function ? std::nullopt : find_path_counter(m_program, m_loop, s);
+    if (counter)
+        m_path_counters.push_back(*counter);
     if (is_short)
         emit_short_loop(s, s.value ? condition : Code{}, last);
     else
         emit_long_loop(s);
-    write_line("share_turns();");
+    if (counter)
+        m_path_counters.pop_back();
+    const bool is_inside_loop = m_loops.size() > 1; // the photon loop is the first
+    if (!counter || !counter->is_short || is_inside_loop) // a few turns are shared after every photon
+        write_line("share_turns();");
 }
 
 // Condition and last part are expressions of GLSL.

@@ -12,6 +12,7 @@
 #include "script/accesses.h"
 #include "script/builtins.h"
 #include "script/emit.h"
+#include "script/path_counters.h"
 
 namespace photonloupe::script {
 
@@ -181,6 +182,7 @@ private:
         std::function<void()> before_next; // what `continue` must do first
     };
     std::vector<LoopContext> m_loops;
+    std::vector<PathCounter> m_path_counters; // of the loops that are being emitted
     std::set<int> m_dimensions; // of parameters that are set by a known number
     bool m_has_computed_dimensions = false;
     bool m_has_loops = false, m_has_element_reductions = false, m_uses_own_path = false;

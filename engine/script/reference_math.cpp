@@ -13,7 +13,6 @@ namespace photonloupe::script {
 namespace {
 
 constexpr float NAN_FLOAT = std::numeric_limits<float>::quiet_NaN();
-constexpr float TWO_PI = float(2 * std::numbers::pi);
 constexpr float PAST_INTEGERS = 2147483648.0f; // 2^31
 
 float clamp_cosine(float x) {
@@ -101,8 +100,7 @@ float compute_dot(std::span<const float> ab) {
 }
 
 float compute_hue(float angle, float channel) {
-    const float phase = angle - TWO_PI * channel / 3;
-    return 0.5f + 0.5f * float(std::cos(double(phase)));
+    return float(0.5 + 0.5 * std::cos(angle - 2 * std::numbers::pi * channel / 3));
 }
 
 float compute_remainder(float x, float y) {

@@ -148,6 +148,35 @@ def trace_photons(device: Device, scene: Scene, settings: dict, progress: object
     Trace photons; settings: count, emitted, seed, emission, store, max_bounces, paths.
     """
 
+class Script:
+    def __init__(self, text: bytes, name: str) -> None: ...
+
+    @property
+    def hash(self) -> str: ...
+
+    @property
+    def diagnostics(self) -> list: ...
+
+    @property
+    def exposed(self) -> list: ...
+
+    @property
+    def columns(self) -> list: ...
+
+    @property
+    def passes(self) -> list: ...
+
+    def glsl(self) -> list:
+        """The text of every compute pass."""
+
+    def spirv(self) -> list:
+        """Every compute pass as SPIR-V."""
+
+    def run(self, device: Device, photons: PhotonMap, settings: dict, progress: object | None = None) -> dict:
+        """
+        Run over a map; settings: values, keep, seed, fuel, exhausted, seconds, and what keep keeps: parameters, old_values, old_colors.
+        """
+
 class Relaxation:
     def step(self, progress: object | None = None) -> dict:
         """One step; what it did."""

@@ -232,9 +232,13 @@ float script_pow(float x, float y) {
     return is_nan(x) || is_nan(y) ? NAN : result;
 }
 
-// ½ + ½ cos(angle − 2π channel / 3), [SJL15] section 4.2.
+// ½ + ½ cos(angle − 2π channel / 3), [SJL15] section 4.2. The angle's sine and cosine serve all three channels, whose
+// own are known to the compiler. Error below 4 ulp of 1.
 float script_hue(float angle, float channel) {
-    precise float phase = angle - 6.28318530717958647692 * channel / 3.0;
-    precise float shade = 0.5 + 0.5 * script_cos(phase);
+    float s, c, channel_s, channel_c;
+    sin_cos_any(angle, s, c);
+    precise float turn = 2.09439510239319549231 * channel;
+    sin_cos_any(turn, channel_s, channel_c);
+    precise float shade = 0.5 + 0.5 * (c * channel_c + s * channel_s);
     return shade;
 }

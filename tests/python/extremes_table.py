@@ -102,6 +102,31 @@ CASES: dict[str, tuple[str, str]] = {
         "10 steps, λ = 2, no limiter, no surface, photons of a sphere",
         "finite; the farthest flies so many radii",
     ),
+    "script-photons": ("scripts over 0, 1, 2 and 65 photons", "sums, counts, extremes and PCA as of so many"),
+    "script-acos": ("acos and asin outside [−1, 1]", "clamped up to 10⁻⁵, NaN beyond"),
+    "script-paths": (
+        "path of two vertices, segment of no length",
+        "no tortuosity: unset; the others as the closed form",
+    ),
+    "script-pca": (
+        "PCA of equal points, of points on a line, to 10⁻²⁰, 10¹⁸, 10²⁰",
+        "no axis; that of the line; at 10²⁰ squares overflow: none",
+    ),
+    "script-numbers": (
+        "scripts' numbers at the ends of floats and integers",
+        "NaN spreads, integers wrap, lengths hold",
+    ),
+    "script-not-finite": ("parameters set to NaN or inf", "unset; counted with the first photon and line"),
+    "script-sums": ("sum of 9,000 fluxes from 10⁻³⁰ to 10³⁰", "in blocks and lanes, against double precision"),
+    "script-scale": ("scripts over paths scaled by 10⁻⁶ and 10⁶", "the same tortuosity"),
+    "script-endless": (
+        "a loop without an end in a script",
+        "photons stop, stay unset and are counted; the next script runs",
+    ),
+    "script-limits": (
+        "source, nesting, variables, arrays, dimensions, k at and beyond their limits",
+        "accepted; refused",
+    ),
 }
 
 

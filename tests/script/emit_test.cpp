@@ -50,6 +50,31 @@ std::string repeat(const std::string& text, int times) {
     return result;
 }
 
+TEST(Emit, counters_along_the_photons_path_are_not_checked) {
+    const char* const unchecked[] = {
+        "for (j = 0; j < getNumPathVertices(i); j++) s += getPathVertex(i, j, X);",
+        "m = getNumPathVertices(i); for (j = 1; j < m - 1; j++) s += getPathVertex(i, j + 1, X) - getPathVertex(i, j - 1, Y);",
+        "for (int j = 2; j <= getNumPathVertices(i) - 1; j += 1) s += getPathNormal(i, j - 2, Z);",
+    };
+    const char* const checked[] = {
+        "for (j = 0; j <= getNumPathVertices(i); j++) s += getPathVertex(i, j, X);",
+        "for (j = 0; j < getNumPathVertices(i); j++) s += getPathVertex(i, j - 1, X);",
+        "for (j = 0; j < getNumPathVertices(i); j++) s += getPathVertex(i, j + 1, X);",
+        "for (j = 0; j < getNumPathVertices(0); j++) s += getPathVertex(i, j, X);",
+        "m = getNumPathVertices(i); if (i > 3) m = 9; for (j = 0; j < m; j++) s += getPathVertex(i, j, X);",
+        "for (j = -1; j < getNumPathVertices(i); j++) s += getPathVertex(i, j, X);",
+        "for (j = 0; j < getNumPathVertices(i); j++) { s += getPathVertex(i, j, X); if (s > 1) j = 7; }",
+        "k = 0; for (j = 0; j < getNumPathVertices(i); j++) { k++; s += getPathVertex(i, k, X); }",
+        "for (j = 0; j < getNumPathVertices(i); j++) s += 1; s += getPathVertex(i, j, X);",
+        "for (j = 0; j < getNumPathVertices(i); j++) s += getPathVertex(0, j, X);",
+    };
+    for (const char* const text : unchecked)
+        EXPECT_FALSE(has(emit(in_loop(std::string("s = 0.0; ") + text + " setPhotonParameter(i, 3, s);")), "find_place(v_"))
+            << text;
+    for (const char* const text : checked)
+        EXPECT_TRUE(has(emit(in_loop(std::string("s = 0.0; ") + text + " setPhotonParameter(i, 3, s);")), "find_place")) << text;
+}
+
 TEST(Emit, names_that_glsl_reserves_are_harmless) {
     emit(in_loop("vec3 = 2; main = 3; gl_Position = 4; photon = 5; a__b = 6; _ = 7; a_ub = 8; __ = 9; settings = 10; "
                  "ZERO = 11; layout = 12; x_is_set = 13; texture = 14; setPhotonParameter(i, 3, vec3 + main + "

@@ -45,7 +45,11 @@ _PICTURES = (
 
 # Scripts whose colors are shown, with what their exposed variables are set to: few enough turns of hue to tell apart.
 _SCRIPTS = Path("scenes", "scripts")
-_SHOWN_SCRIPTS: tuple[tuple[str, dict[str, float]], ...] = (("tortuosity", {}), ("primal_trajectory", {}), ("ppca", {}))
+_SHOWN_SCRIPTS: tuple[tuple[str, dict[str, float]], ...] = (
+    ("tortuosity", {"turns": 6}),
+    ("primal_trajectory", {"zoom": 4}),
+    ("ppca", {"turns": 2}),
+)
 _LAYERS = "primal_trajectory"
 _FALSE_COLOR_EXPOSURE = 1.0
 

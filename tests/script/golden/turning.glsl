@@ -44,11 +44,11 @@ void run_body() {
         for (; v_k < 3 && take_turn(); v_k += 1) {
             // 12: a[k] = getPathVertex(i, j, k) - getPathVertex(i, j - 1, k);
             int t1 = find_place(v_k, 3, 0u);
-            precise float t2 = pick_axis(read_vertex(own_path, find_place(v_j, int(own_path.y), 1u)), find_place(v_k, 3, 2u)) - pick_axis(read_vertex(own_path, find_place(v_j - 1, int(own_path.y), 3u)), find_place(v_k, 3, 4u));
+            precise float t2 = pick_axis(read_vertex(own_path, v_j), find_place(v_k, 3, 1u)) - pick_axis(read_vertex(own_path, v_j - 1), find_place(v_k, 3, 2u));
             if (t1 >= 0) v_a[t1] = t2;
             // 13: b[k] = getPathVertex(i, j + 1, k) - getPathVertex(i, j, k);
-            int t3 = find_place(v_k, 3, 5u);
-            precise float t4 = pick_axis(read_vertex(own_path, find_place(v_j + 1, int(own_path.y), 6u)), find_place(v_k, 3, 7u)) - pick_axis(read_vertex(own_path, find_place(v_j, int(own_path.y), 8u)), find_place(v_k, 3, 9u));
+            int t3 = find_place(v_k, 3, 3u);
+            precise float t4 = pick_axis(read_vertex(own_path, v_j + 1), find_place(v_k, 3, 4u)) - pick_axis(read_vertex(own_path, v_j), find_place(v_k, 3, 5u));
             if (t3 >= 0) v_b[t3] = t4;
         }
         share_turns();
@@ -57,7 +57,7 @@ void run_body() {
     }
     share_turns();
     // 17: setPhotonParameter(i, 3, total / (m - 2));
-    if (is_inside(3 - 3, int(settings.parameter_count), 10u)) stage_parameter(3, v_total / real(v_m - 2));
+    if (is_inside(3 - 3, int(settings.parameter_count), 6u)) stage_parameter(3, v_total / real(v_m - 2));
     // 18: setPhotonColourEncoding(i, hue(gain * total, 0), hue(gain * total, 1), hue(gain * total, 2));
     staged_color = vec4(script_hue(v_gain * v_total, ZERO), script_hue(v_gain * v_total, 1.0), script_hue(v_gain * v_total, 2.0), 1.0);
 }
