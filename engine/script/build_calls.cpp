@@ -21,12 +21,16 @@ bool gives_value(const std::vector<SyntaxStatement>& statements) {
     });
 }
 
+} // namespace
+
 std::string write_signature(const SyntaxFunction& function) {
     std::string signature = function.name + '(';
     for (const Declarator& parameter : function.parameters)
         signature += (&parameter == &function.parameters.front() ? "" : ", ") + parameter.name;
     return signature + ')';
 }
+
+namespace {
 
 std::string count_arguments(std::size_t count) {
     return std::to_string(count) + (count == 1 ? " argument" : " arguments");
@@ -52,7 +56,10 @@ void TreeBuilder::refuse_unknown_function(const SyntaxExpression& call) {
     for (const auto& [name, function] : m_functions)
         known.push_back(name);
     std::string note;
-    if (const std::string near = suggest_name(call.name, known); !near.empty()) {
+    if (const std::optional<std::uint32_t> found = find_variable(call.name);
+        found && (variable(*found).array_size > 0 || variable(*found).type == Type::list)) {
+        note = "an element is written " + call.name + "[j]";
+    } else if (const std::string near = suggest_name(call.name, known); !near.empty()) {
         const Builtin* const builtin = find_builtin(near);
         note = "did you mean '" +
                (builtin ? std::string(builtin->signature) : write_signature(*m_functions.at(near))) + "'?";

@@ -115,6 +115,8 @@ void TreeBuilder::refuse_unknown_variable(const SyntaxExpression& name) {
                std::to_string(m_draft.program.source.find_place(later->second.begin).line) + ", after this";
     else if (const Builtin* const builtin = find_builtin(name.name))
         note = "a function is called with parentheses: " + std::string(builtin->signature);
+    else if (const auto function = m_functions.find(name.name); function != m_functions.end())
+        note = "a function is called with parentheses: " + write_signature(*function->second);
     else if (const std::string near = suggest_name(name.name, known); !near.empty())
         note = "did you mean '" + near + "'?";
     m_diagnostics.add(codes::UNKNOWN_VARIABLE, name.name_span, "unknown variable '" + name.name + "'", note);

@@ -24,15 +24,6 @@ constexpr std::string_view CODES_OF_MISSING[] = {codes::UNKNOWN_FUNCTION, codes:
                                                  codes::READ_BEFORE_SET,  codes::BAD_RANGE,
                                                  codes::BAD_DIMENSION,    codes::UNDECLARED_DIMENSION};
 
-// What an expression with an unknown name in it gives is not known: its type is no second mistake.
-bool follows_from_another(const Diagnostic& diagnostic, const std::vector<Diagnostic>& all) {
-    return diagnostic.code == codes::REAL_TO_INTEGER &&
-           std::any_of(all.begin(), all.end(), [&](const Diagnostic& other) {
-               return other.code != codes::REAL_TO_INTEGER && other.severity == Severity::error &&
-                      other.span.begin >= diagnostic.span.begin && other.span.end <= diagnostic.span.end;
-           });
-}
-
 void check_meaning(Draft& draft, Diagnostics& diagnostics) {
     infer_types(draft);
     convert_types(draft, diagnostics);
@@ -76,11 +67,10 @@ Program check_script(const Source& source, Diagnostics& diagnostics) {
     const SyntaxScript script = parse_script(source, diagnostics);
     Diagnostics found;
     check_tree(script, draft, found);
-    const std::vector<Diagnostic> all = found.sorted();
-    for (const Diagnostic& diagnostic : all) {
+    for (const Diagnostic& diagnostic : found.all()) {
         const bool is_of_missing = std::find(std::begin(CODES_OF_MISSING), std::end(CODES_OF_MISSING),
                                              diagnostic.code) != std::end(CODES_OF_MISSING);
-        if ((script.is_complete || !is_of_missing) && !follows_from_another(diagnostic, all))
+        if (script.is_complete || !is_of_missing)
             diagnostics.add(diagnostic.code, diagnostic.span, diagnostic.message, diagnostic.note);
     }
     return std::move(draft.program);

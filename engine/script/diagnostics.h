@@ -28,6 +28,7 @@ public:
     static constexpr std::size_t MAX_ERRORS = 20;
     void add(std::string code, Span span, std::string message, std::string note = {});
     bool has_errors() const;
+    const std::vector<Diagnostic>& all() const { return m_list; } // as they were found
     std::vector<Diagnostic> sorted() const;
 
 private:

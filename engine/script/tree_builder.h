@@ -104,6 +104,9 @@ private:
     std::uint32_t m_depth = 0;
 };
 
+// "f(a, b)"
+std::string write_signature(const SyntaxFunction& function);
+
 // Ways through a body that end without `return value`.
 bool may_end(const std::vector<Statement>& body);
 

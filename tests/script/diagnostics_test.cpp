@@ -85,6 +85,9 @@ TEST(ScriptDiagnostics, suggest_names_of_other_case_first) {
     const std::vector<Diagnostic> found = find_diagnostics("hua = 1; Hue = 2; x = hue;");
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].note, "a function is called with parentheses: hue(angle, channel)");
+    EXPECT_EQ(find_diagnostics("x = f; function f(a, b) { return a; }")[0].note,
+              "a function is called with parentheses: f(a, b)");
+    EXPECT_EQ(find_diagnostics("float table[3]; x = table(1);")[0].note, "an element is written table[j]");
     EXPECT_EQ(find_diagnostics("alpha1 = 1; Alphas = 2; x = ALPHAS;")[0].note, "did you mean 'Alphas'?");
     EXPECT_EQ(find_diagnostics("x = abcdefgh;")[0].note, "");
     EXPECT_EQ(find_diagnostics("function spread(a, b) { return a; } x = sprad(1, 2);")[0].note,

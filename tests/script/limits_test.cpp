@@ -2,6 +2,7 @@
 // Each limit is reached without complaint, refused one past, and far past it nothing breaks.
 #include <gtest/gtest.h>
 
+#include "script/compile_script.h"
 #include "script/script_files.h"
 
 namespace photonloupe::test {
@@ -66,6 +67,23 @@ TEST(ScriptLimits, calls_nest_with_all_they_hold) {
     for (int i = 40; i < 1000; ++i)
         text += "function f" + std::to_string(i) + "(x) { return f" + std::to_string(i - 1) + "(x); }\n";
     EXPECT_EQ(find_codes(text + "y = f999(1);").front(), "E008");
+}
+
+TEST(ScriptLimits, what_is_accepted_can_be_planned_and_emitted_too) {
+    const std::string photons = "for (i = 0; i < getNumPhotons(); i++) ";
+    const std::string sum = "x = i" + repeat(" + i", 250) + "; setPhotonColourEncoding(i, x, x, x);";
+    const std::string parentheses = "x = " + repeat("(1.5 * abs(", 31) + "i" + repeat("))", 31) + ";";
+    std::string calls;
+    for (int i = 1; i < 40; ++i)
+        calls += "function f" + std::to_string(i) + "(x) { return 1 + f" + std::to_string(i - 1) + "(x + 1) / 2; }\n";
+    for (const std::string& text :
+         {photons + "{" + sum + "}", photons + "{" + parentheses + "}", photons + repeat("if (i > 3) ", 60) + "x = i;",
+          photons + "{ x = 0; if (x) ; " + repeat("else if (i < x) x = i;", 250) + "}",
+          "function f0(x) { return x; }" + calls + photons + "setPhotonColourEncoding(i, f39(i), 0, 0);"}) {
+        const auto compiled = script::compile_script({"deep.photon", text});
+        EXPECT_EQ(script::format_diagnostics(compiled->program.source, compiled->diagnostics), "");
+        ASSERT_EQ(compiled->plan.loops.size(), 1u);
+    }
 }
 
 TEST(ScriptLimits, two_hundred_and_fifty_six_variables) {
