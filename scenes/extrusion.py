@@ -8,8 +8,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from gltf import Mesh
 from numpy.typing import NDArray
+
+from gltf import Mesh
 
 Doubles = NDArray[np.float64]
 
