@@ -145,6 +145,9 @@ void TreeBuilder::build_jump(const SyntaxStatement& syntax, std::vector<Statemen
                                     syntax.span);
     if (syntax.value)
         jump.value = build_value(*syntax.value);
+    else if (is_return && m_context.gives_value)
+        m_diagnostics.add(codes::NO_VALUE, syntax.span,
+                          "'return' without a value, though '" + m_context.function->name + "' returns one elsewhere");
     out.push_back(std::move(jump));
 }
 

@@ -39,7 +39,7 @@ constexpr DiagnosticCode TABLE[] = {
     {codes::UNDECLARED_DIMENSION, "A parameter is set that is declared nowhere."},
     {codes::JUMP_OUTSIDE, "`break` or `continue` outside a loop, or `return` outside a function."},
     {codes::NAME_TAKEN, "A name that is defined already, or that the language reserves."},
-    {codes::NO_VALUE, "The value of a function that returns none."},
+    {codes::NO_VALUE, "The value of a function that returns none; a return without the value that the function returns elsewhere."},
     {codes::LIST_MISUSE, "A neighbor list used otherwise than as list[j] and length(list)."},
     {codes::TEXT_MISUSE, "A label where a number belongs."},
     {codes::UNSUPPORTED_OPERATOR, "An operator of C that scripts do not have."},

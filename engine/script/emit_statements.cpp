@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Statements as GLSL.
 #include <algorithm>
+#include <cctype>
 #include <utility>
 
 #include "script/emitter.h"
@@ -9,17 +10,18 @@
 namespace photonloupe::script {
 namespace {
 
-// The one statement that a block holds, without its semicolon; nothing where it holds more.
+// The one assignment or call that a block holds, without its semicolon; nothing where it holds more or a declaration.
 std::string find_single(const Block& block) {
     const std::size_t end = block.text.find(";\n");
     if (end == std::string::npos || end + 2 != block.text.size())
         return {};
     const std::size_t first = block.text.find_first_not_of(' ');
     const std::string text = block.text.substr(first, end - first);
-    return text.find_first_of("{};\n") == std::string::npos && text.rfind("int t", 0) != 0 &&
-                   text.rfind("if", 0) != 0 && text.rfind("precise", 0) != 0 && text.rfind("//", 0) != 0
-               ? text
-               : std::string{};
+    const std::size_t space = text.find(' ');
+    const bool is_declaration = space != std::string::npos && std::isalnum(static_cast<unsigned char>(text[space + 1])) &&
+                                text.find('(') > space;
+    const bool is_branch = text.rfind("if ", 0) == 0;
+    return is_declaration || is_branch || text.find_first_of("{};\n") != std::string::npos ? std::string() : text;
 }
 
 } // namespace

@@ -52,7 +52,7 @@ TEST(ScriptFuzz, mutated_scripts_do_no_harm) {
             if (const std::string text = read_script(path).text; text.size() < 8000)
                 scripts.push_back(text);
     std::mt19937 engine(3);
-    for (int round = 0; round < 6000; ++round) {
+    for (int round = 0; round < 4000; ++round) {
         std::string text = scripts[engine() % scripts.size()];
         for (std::uint32_t mutation = 1 + engine() % 4; mutation > 0 && !text.empty(); --mutation) {
             const std::size_t at = engine() % text.size();
