@@ -213,7 +213,7 @@ BOWL = CylinderScene(
 
 SLAB = SlabScene(
     name="slab",
-    light_height=5.0,
+    light_height=1.5,
     slab_bottom=0.3,
     slab_top=0.5,
     slab_half=3.0,
