@@ -106,7 +106,8 @@ private:
     bool is_steady(const Statement& loop, const Expression& step) const {
         bool is_steady = true;
         const auto look = [&](const Expression& expression) {
-            is_steady &= expression.kind != Kind::assignment || expression.variable != step.variable || &expression == &step;
+            is_steady &= expression.kind != Kind::assignment || expression.variable != step.variable ||
+                         &expression == &step;
         };
         visit_expressions(loop.body, look);
         visit_expressions(*loop.value, look);

@@ -134,7 +134,9 @@ void TreeBuilder::build_loop(const SyntaxStatement& syntax, std::vector<Statemen
 void TreeBuilder::build_jump(const SyntaxStatement& syntax, std::vector<Statement>& out) {
     const bool is_return = syntax.kind == SyntaxStatement::Kind::give;
     if (is_return ? !m_context.function : m_context.loop_depth == 0) {
-        const std::string word = is_return ? "return" : syntax.kind == SyntaxStatement::Kind::leave ? "break" : "continue";
+        const std::string word = is_return                                       ? "return"
+                                 : syntax.kind == SyntaxStatement::Kind::leave ? "break"
+                                                                               : "continue";
         m_diagnostics.add(codes::JUMP_OUTSIDE, syntax.span,
                           "'" + word + "' stands outside a " + (is_return ? "function" : "loop"));
         return;
@@ -161,7 +163,8 @@ void TreeBuilder::build_expose(const SyntaxStatement& syntax, std::vector<Statem
     check_exposure(syntax);
     const std::optional<std::uint32_t> found = find_variable(syntax.name);
     if (!found || find_constant_name(syntax.name)) {
-        m_diagnostics.add(codes::BAD_RANGE, syntax.name_span, "'" + syntax.name + "' is no variable that can be exposed",
+        m_diagnostics.add(codes::BAD_RANGE, syntax.name_span,
+                          "'" + syntax.name + "' is no variable that can be exposed",
                           "assign its default before: " + syntax.name + " = …;");
         return;
     }

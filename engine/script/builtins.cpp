@@ -141,7 +141,8 @@ constexpr Builtin TABLE[] = {
      "A coordinate of the mean of the points.",
      AXIS, 1, false, Result::real, Effect::reads_pca, 0, "script_get_pca_mean"},
     {"histogram", Id::histogram, "histogram(\"name\", value, lo, hi [, bins])", "reports",
-     "Counts the value in one of the (1-4,096, else 64) equal bins from lo to hi, both included; values outside are counted apart.",
+     "Counts the value in one of the (1-4,096, else 64) equal bins from lo to hi, both included; values outside are "
+     "counted apart.",
      HISTOGRAM, 4, false, Result::none, Effect::reports, 0, "script_histogram"},
     {"print", Id::print, "print(\"text\" [, value ...])", "reports",
      "Prints a line; in a photon loop the first 20 by photon id.",

@@ -54,7 +54,8 @@ bool gives_first_value(const Expression& assignment) {
 }
 
 bool is_always_true(const std::optional<Expression>& condition) {
-    return !condition || (condition->kind == Kind::number && condition->type == Type::integer && condition->integer != 0);
+    return !condition ||
+           (condition->kind == Kind::number && condition->type == Type::integer && condition->integer != 0);
 }
 
 class AssignmentChecker {

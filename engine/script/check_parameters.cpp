@@ -26,7 +26,8 @@ std::optional<int> find_dimension(const Program& program, const Expression& argu
 }
 
 // The calls that a run always reaches if it reaches the script's end: not under a condition.
-void collect_certain(const Program& program, const std::vector<Statement>& statements, std::set<const Expression*>& certain) {
+void collect_certain(const Program& program, const std::vector<Statement>& statements,
+                     std::set<const Expression*>& certain) {
     for (const Statement& statement : statements) {
         if (statement.kind == Statement::Kind::expression)
             visit_expressions(*statement.value, [&](const Expression& expression) {

@@ -109,7 +109,8 @@ private:
         else if (m_culprit)
             what = "it depends on '" + m_program.variables[m_culprit->variable].name + "', which the loop assigns";
         m_diagnostics.add(codes::NOT_UNIFORM, argument.span,
-                          "this argument of '" + std::string(builtin.name) + "' must be the same for all photons, but " + what,
+                          "this argument of '" + std::string(builtin.name) +
+                              "' must be the same for all photons, but " + what,
                           "compute it before the loop");
     }
 
@@ -166,7 +167,8 @@ private:
                 for (const std::uint32_t parameter : function.parameters)
                     m_arguments.insert(parameter);
         const Assignments& assignments = m_assignments[variable];
-        const bool is_only = m_arguments.contains(variable) && !assignments.is_changed && assignments.values.size() == 1;
+        const bool is_only =
+            m_arguments.contains(variable) && !assignments.is_changed && assignments.values.size() == 1;
         return is_only ? assignments.values[0] : nullptr;
     }
 

@@ -78,7 +78,8 @@ private:
     bool check_whole(double value, Span span, const char* what) {
         if (value == std::floor(value) && std::isfinite(value))
             return true;
-        m_diagnostics.add(codes::NOT_WHOLE, span, std::string(what) + " must be a whole number, not " + format_number(value));
+        m_diagnostics.add(codes::NOT_WHOLE, span,
+                          std::string(what) + " must be a whole number, not " + format_number(value));
         return false;
     }
 
@@ -117,7 +118,8 @@ private:
         if (!is_ordered)
             m_diagnostics.add(codes::BAD_RANGE,
                               {call.operands[first].span.begin, call.operands[first + 1].span.end},
-                              "the lower bound must be below the upper, both finite", std::string(call.builtin->signature));
+                              "the lower bound must be below the upper, both finite",
+                              std::string(call.builtin->signature));
     }
 
     const Program& m_program;

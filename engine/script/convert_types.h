@@ -10,8 +10,8 @@ namespace photonloupe::script {
 // After infer_types. Reals given to what the script declares as integer are refused.
 //
 // Afterwards: the operands of arithmetic and comparisons have one type; pure mathematics take reals, or integers where
-// the call's type is integer; int, floor, ceil and round of an integer are that integer itself; photons, vertices, axes,
-// dimensions, counts, indices and printed values keep the type they have.
+// the call's type is integer; int, floor, ceil and round of an integer are that integer itself; photons, vertices,
+// axes, dimensions, counts, indices and printed values keep the type they have.
 void convert_types(Draft& draft, Diagnostics& diagnostics);
 
 } // namespace photonloupe::script

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t MAX_SHOWN_COLUMNS = 160;
 constexpr std::size_t COLUMNS_BEFORE_SPAN = 60;
 
-// The line and, below it, the carets: one column a code point, tabs kept, control characters and bad bytes shown as "?".
+// The line and, below it, the carets: one column a code point, tabs kept, control characters and bad bytes as "?".
 std::string quote_line(const Source& source, const Diagnostic& diagnostic) {
     const Place place = source.find_place(diagnostic.span.begin);
     const std::string_view line = source.line_text(place.line);

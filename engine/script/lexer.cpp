@@ -153,7 +153,8 @@ private:
         } else if (is_printable(character)) {
             label += m_text.substr(begin, character.length);
         } else {
-            m_diagnostics.add(codes::UNEXPECTED_CHARACTER, span_from(begin), describe(begin, character) + " in a label");
+            m_diagnostics.add(codes::UNEXPECTED_CHARACTER, span_from(begin),
+                              describe(begin, character) + " in a label");
         }
     }
 

@@ -12,7 +12,8 @@ using Kind = SyntaxStatement::Kind;
 std::string advise_on_type(std::string_view word) {
     for (const std::string_view type : {"double", "bool", "void", "const", "var", "let", "auto", "unsigned", "long"})
         if (word == type)
-            return "a variable is declared by its first assignment, or by 'float x;' or 'int x;'; a function by 'function'";
+            return "a variable is declared by its first assignment, or by 'float x;' or 'int x;'; a function by "
+                   "'function'";
     return {};
 }
 

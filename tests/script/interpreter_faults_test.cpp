@@ -79,8 +79,8 @@ TEST(InterpreterFaults, count_photons_in_loops_and_name_the_first) {
             functions = body.substr(at);
             body.erase(at);
         }
-        const Ran ran = interpret("n = getNumPhotons(); for (i = 0; i < n; i++) { if (i < 2 || i == 7) continue; " + body +
-                                  " } " + functions);
+        const std::string head = "n = getNumPhotons(); for (i = 0; i < n; i++) { if (i < 2 || i == 7) continue; ";
+        const Ran ran = interpret(head + body + " } " + functions);
         ASSERT_EQ(ran.errors, "") << one.statement;
         const FaultReport* const fault = ran.find_fault(one.kind);
         ASSERT_TRUE(fault) << one.statement;
@@ -101,7 +101,8 @@ TEST(InterpreterFaults, drop_writes) {
     Ran ran = interpret(R"(
         n = getNumPhotons(); declarePhotonParameter(3, 0, 1);
         float a[2]; a[n] = 5; a[n] += 5; a[n]++;
-        setPhotonParameter(n, 3, 0.5); setPhotonColourEncoding(-n, 1, 1, 1); d = 3; d += n - 7; setPhotonParameter(0, d, 0.5);
+        setPhotonParameter(n, 3, 0.5); setPhotonColourEncoding(-n, 1, 1, 1);
+        d = 3; d += n - 7; setPhotonParameter(0, d, 0.5);
         d -= 4; setPhotonParameter(0, d, 0.5);
     )");
     ASSERT_EQ(ran.errors, "");
@@ -125,7 +126,8 @@ TEST(InterpreterFaults, are_none_where_floats_are_whole) {
 }
 
 TEST(InterpreterFaults, of_ieee_arithmetic_are_none) {
-    const Ran ran = interpret("n = getNumPhotons(); a = n / 0; b = 0 / (n - 8); c = sqrt(-n); d = log(0 * n); e = acos(n);");
+    const Ran ran = interpret("n = getNumPhotons(); a = n / 0; b = 0 / (n - 8); c = sqrt(-n); d = log(0 * n); "
+                              "e = acos(n);");
     EXPECT_TRUE(ran.outputs.faults.empty());
     EXPECT_TRUE(std::isinf(ran.real("a")));
     for (const char* const name : {"b", "c", "e"})

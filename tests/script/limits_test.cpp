@@ -110,7 +110,8 @@ TEST(ScriptLimits, inlining_that_grows_without_end_is_refused) {
 TEST(ScriptLimits, the_longest_scripts_are_checked_quickly) {
     std::string reversed = "v255 = 0.5;";
     for (int i = 0; i < 255; ++i)
-        reversed = "v" + std::to_string(i) + " = 0; v" + std::to_string(i) + " = v" + std::to_string(i + 1) + ";" + reversed;
+        reversed = "v" + std::to_string(i) + " = 0; v" + std::to_string(i) + " = v" + std::to_string(i + 1) + ";" +
+                   reversed;
     find_codes(reversed);
     std::string wide = "a = b = c = 1;";
     while (wide.size() < 65000)
