@@ -135,6 +135,51 @@ class PrismScene:
         return 1.01 * self._cut(self.join_radius, turn)
 
 
+@dataclass(frozen=True)
+class LightguideScene:
+    """A glass strip along z above a diffuse floor y = 0, a point light so far above that its light is nearly parallel.
+
+    Its upper side is a crown, on either side a bevel, then a flat shoulder down to the side wall: the normal turns
+    steadily, but faster on the bevel. Angles are slopes of the upper side in degrees.
+    """
+
+    name: str
+    half_width: float  # m
+    crown_height: float  # m, of the middle of the upper side above the floor
+    base_height: float  # m, of the flat lower side above the floor
+    crown_radius: float  # m
+    crown_angle: float  # where crown and bevel meet
+    bevel_radius: float  # m
+    shoulder_angle: float
+    edge_radius: float  # m
+    half_length: float  # m
+    end_radius: float  # m
+    ior: float
+    light_height: float  # m
+    intensity: float  # W/sr
+    floor_half: float  # m
+    floor_reflectance: float
+    window_half: float  # m
+    segments: tuple[int, int, int] = (240, 240, 40)  # of the crown, a bevel, an edge
+    end_segments: int = 8
+
+    def list_corners(self) -> list[Corner]:
+        """Corners of the cross-section, counter-clockwise from the lower right one."""
+        crown, bevel, edge = self.segments
+        start, end = math.radians(self.crown_angle), math.radians(self.shoulder_angle)
+        # Where the tangents at the ends of the crown meet, and from there how far along them those at the bevel's ends.
+        peak = self.crown_height + self.crown_radius * (1.0 / math.cos(start) - 1.0)
+        along = self.crown_radius * math.tan(start) + self.bevel_radius * math.tan(0.5 * (end - start))
+        x, y = along * math.cos(start), peak - along * math.sin(start)
+        right = [
+            Corner(self.half_width, self.base_height, self.edge_radius, edge),
+            Corner(self.half_width, y - (self.half_width - x) * math.tan(end), self.edge_radius, edge),
+            Corner(x, y, self.bevel_radius, bevel),
+        ]
+        left = [Corner(-c.x, c.y, c.radius, c.segments) for c in reversed(right)]
+        return [*right, Corner(0.0, peak, self.crown_radius, crown), *left]
+
+
 def _lean(start: tuple[float, float], angle: float, length: float) -> tuple[float, float]:
     """The point `length` up a face that leans to the left of the vertical by `angle` degrees."""
     radians = math.radians(angle)
@@ -203,6 +248,26 @@ PRISM = PrismScene(
     window_half=1.2,
 )
 
+LIGHTGUIDE = LightguideScene(
+    name="lightguide",
+    half_width=0.15,
+    crown_height=0.15,
+    base_height=0.08,
+    crown_radius=1.2,
+    crown_angle=3.0,
+    bevel_radius=0.115,
+    shoulder_angle=13.0,
+    edge_radius=0.003,
+    half_length=0.2,
+    end_radius=0.002,
+    ior=1.5,
+    light_height=5.0,
+    intensity=25.0,
+    floor_half=1.0,
+    floor_reflectance=0.7,
+    window_half=0.25,
+)
+
 
 def add_top_camera(writer: GltfWriter, window_half: float) -> None:
     """Adds `top`: straight down, x to the right, z downward, |x|, |z| <= `window_half` of the floor in the frame."""
@@ -248,6 +313,18 @@ def build_bowl() -> GltfWriter:
     return writer
 
 
+def build_lightguide() -> GltfWriter:
+    """Glass strip with a curved, bevelled upper side under a distant lamp."""
+    writer = GltfWriter(LIGHTGUIDE.name)
+    strip = build_bar(LIGHTGUIDE.list_corners(), LIGHTGUIDE.half_length, LIGHTGUIDE.end_radius, LIGHTGUIDE.end_segments)
+    writer.add_mesh("strip", strip, make_glass("glass", LIGHTGUIDE.ior, 2.0 * LIGHTGUIDE.half_length))
+    writer.add_mesh("floor", build_quad(LIGHTGUIDE.floor_half), make_diffuse("plaster", LIGHTGUIDE.floor_reflectance))
+    writer.add_point_light("lamp", (0.0, LIGHTGUIDE.light_height, 0.0), LIGHTGUIDE.intensity)
+    add_top_camera(writer, LIGHTGUIDE.window_half)
+    writer.add_camera("view", (0.42, 0.42, 0.62), (0.0, 0.04, 0.0), 0.68)
+    return writer
+
+
 def build_prism() -> GltfWriter:
     """Glass wedge with a bevel across its far face, lit from the side."""
     writer = GltfWriter(PRISM.name)
@@ -256,8 +333,8 @@ def build_prism() -> GltfWriter:
     writer.add_mesh("floor", build_quad(PRISM.floor_half), make_diffuse("plaster", PRISM.floor_reflectance))
     writer.add_point_light("lamp", PRISM.light, PRISM.intensity)
     add_top_camera(writer, PRISM.window_half)
-    writer.add_camera("view", (1.25, 1.0, 1.5), (0.3, 0.16, 0.0), 0.6)
-    writer.add_camera("close", (0.36, 1.1, 0.0), (0.36, 0.0, 0.0), 0.16, up=(0.0, 0.0, -1.0))
+    writer.add_camera("view", (1.35, 1.05, 1.55), (0.36, 0.14, 0.0), 0.66)
+    writer.add_camera("close", (0.36, 1.1, 0.0), (0.36, 0.0, 0.0), 0.22, up=(0.0, 0.0, -1.0))
     return writer
 
 
@@ -266,6 +343,7 @@ SCENES: dict[str, Callable[[], GltfWriter]] = {
     "slab": build_slab,
     "bowl": build_bowl,
     "prism": build_prism,
+    "lightguide": build_lightguide,
 }
 
 

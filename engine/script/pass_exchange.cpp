@@ -140,7 +140,7 @@ void PassRunner::ask_neighbors(Work& work, std::uint32_t first_photon, std::uint
 
 void PassRunner::collect(Work& work) {
     ScriptColumns& columns = m_outputs.columns;
-    if ((work.loop.sets_parameters || work.loop.sets_colors) && !work.has_late_photons)
+    if (work.loop.sets_parameters || work.loop.sets_colors)
         columns.note_device_wrote();
     if (work.loop.sets_colors)
         columns.note_colors();

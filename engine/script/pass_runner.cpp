@@ -16,6 +16,8 @@ constexpr std::uint32_t COMFORTABLE_TURNS = 30'000;
 // Words of lanes that one batch of blocks may have, and of neighbours' rows.
 constexpr std::uint64_t MOST_LANE_WORDS = 1ull << 24;
 constexpr std::uint64_t MOST_ROW_WORDS = 1ull << 26;
+// Rounds in a row where nothing is reduced: enough for what a lane does once, few enough for many lanes.
+constexpr std::uint32_t MOST_FREE_ROUNDS = 16;
 constexpr std::uint32_t WORD_BITS = 32;
 
 template <class Words> gpu::Buffer make_words(gpu::Device& device, const Words& words, const char* purpose) {
@@ -54,14 +56,6 @@ bool PassRunner::run(const PhotonLoop& loop, Interpreter& interpreter, LoopRepor
     Work work{loop, m_passes[index], interpreter, report};
     work.layout = take_layout(m_program, work.pass);
     m_columns.prepare();
-    fill_uniforms(work);
-    const std::uint32_t photon_words = static_cast<std::uint32_t>(m_photons.count / WORD_BITS + 1);
-    std::vector<std::uint32_t> faults;
-    for (std::size_t site = 0; site < work.pass.sites.size(); ++site)
-        faults.insert(faults.end(), {0u, NO_PHOTON});
-    work.fault_words = make_words(m_device, faults, "script faults");
-    work.print_bits = make_words(m_device, std::vector<std::uint32_t>(photon_words), "script prints");
-    work.late_bits = make_words(m_device, std::vector<std::uint32_t>(photon_words), "late photons");
     const bool may_repeat = loop.sets_parameters && loop.reads_own_parameters;
     if (may_repeat && !m_columns.parameters().is_empty()) {
         work.kept_parameters = gpu::Buffer(m_device, m_columns.parameters().size_bytes(), "script parameters");
@@ -69,10 +63,58 @@ bool PassRunner::run(const PhotonLoop& loop, Interpreter& interpreter, LoopRepor
         copy.copy(m_columns.parameters(), 0, work.kept_parameters, 0, m_columns.parameters().size_bytes());
         copy.run();
     }
-    if (!run_blocks(work))
-        return false;
-    collect(work);
-    return true;
+    bool is_done = false;
+    try {
+        is_done = run_rounds(work);
+    } catch (const Cancelled&) {
+        if (work.report.stopped.empty())
+            throw;
+        is_done = true; // a limit was reached; what was done stays
+    }
+    if (is_done)
+        collect(work);
+    return is_done;
+}
+
+// Some rounds of a block in each dispatch; where a lane ran out of turns, all again, a round at a time.
+bool PassRunner::run_rounds(Work& work) {
+    start_anew(work);
+    const auto photons = static_cast<std::uint32_t>(
+        std::min<std::uint64_t>(std::uint64_t{choose_batch(work)} * REDUCTION_BLOCK, m_photons.count));
+    ask_neighbors(work, 0, photons);
+    work.rounds = measure_rounds(work);
+    run_blocks(work);
+    if (work.has_late_photons && work.rounds > 1) {
+        restore_columns(work);
+        start_anew(work);
+        ask_neighbors(work, 0, photons);
+        work.rounds = 1;
+        run_blocks(work);
+    }
+    return !work.has_late_photons || take_late_photons(work);
+}
+
+// As before the first dispatch.
+void PassRunner::start_anew(Work& work) const {
+    const std::uint32_t photon_words = static_cast<std::uint32_t>(m_photons.count / WORD_BITS + 1);
+    std::vector<std::uint32_t> faults;
+    for (std::size_t site = 0; site < work.pass.sites.size(); ++site)
+        faults.insert(faults.end(), {0u, NO_PHOTON});
+    work.fault_words = make_words(m_device, faults, "script faults");
+    work.print_bits = make_words(m_device, std::vector<std::uint32_t>(photon_words), "script prints");
+    work.late_bits = make_words(m_device, std::vector<std::uint32_t>(photon_words), "late photons");
+    work.status_words = make_words(m_device, std::vector<std::uint32_t>(shared::STATUS_WORDS), "script status");
+    work.blocks.clear();
+    work.has_late_photons = false;
+    fill_uniforms(work); // histograms too
+}
+
+void PassRunner::restore_columns(Work& work) const {
+    if (work.kept_parameters.is_empty())
+        return;
+    gpu::Commands copy(m_device, STAGE);
+    copy.copy(work.kept_parameters, 0, m_columns.parameters(), 0, work.kept_parameters.size_bytes());
+    copy.run();
 }
 
 // Blocks whose lanes and rows fit together.
@@ -118,7 +160,6 @@ void PassRunner::dispatch(gpu::Commands& commands, const Work& work, const share
 
 // A first look at 64 photons that writes nothing: how many rounds of a block one dispatch can take.
 std::uint32_t PassRunner::measure_rounds(Work& work) const {
-    work.status_words = make_words(m_device, std::vector<std::uint32_t>(shared::STATUS_WORDS), "script status");
     shared::ScriptPass push = work.push(m_photons, m_outputs, m_settings);
     push.block_count = push.rounds = 1;
     push.flags = shared::SCRIPT_IS_DRY;
@@ -127,10 +168,22 @@ std::uint32_t PassRunner::measure_rounds(Work& work) const {
     commands.run();
     const std::vector<std::uint32_t> status = work.status_words.read<std::uint32_t>(shared::STATUS_WORDS);
     const std::uint32_t turns = std::max(status[shared::STATUS_MOST_TURNS], 1u);
-    return status[shared::STATUS_FLAGS] ? 1u : std::clamp(COMFORTABLE_TURNS / turns, 1u, shared::SCRIPT_ROUNDS);
+    work.status_words = make_words(m_device, std::vector<std::uint32_t>(shared::STATUS_WORDS), "script status");
+    if (status[shared::STATUS_FLAGS])
+        return 1;
+    const std::uint32_t most = work.pass.slot_count > 0 ? shared::SCRIPT_ROUNDS : MOST_FREE_ROUNDS;
+    return std::clamp(COMFORTABLE_TURNS / turns, 1u, most);
 }
 
-bool PassRunner::must_stop(Work& work) const {
+// Between dispatches. Sets report.stopped, has_late_photons. Late photons are the interpreter's as soon as they are many:
+// a script that never ends is then stopped early.
+void PassRunner::check_limits(Work& work) {
+    work.has_late_photons = work.status_words.read<std::uint32_t>(1)[0] != 0;
+    if (work.has_late_photons && work.rounds == 1 && can_hand_over(work) &&
+        list_late_photons(work).size() >= m_settings.most_exhausted)
+        take_late_photons(work);
+    if (!work.report.stopped.empty())
+        return;
     const std::vector<std::uint32_t> words =
         work.fault_words.read<std::uint32_t>(shared::FAULT_STRIDE * work.pass.sites.size());
     std::uint32_t exhausted = 0;
@@ -143,10 +196,9 @@ bool PassRunner::must_stop(Work& work) const {
     else if (spent > m_settings.most_seconds)
         work.report.stopped = "it took longer than " + std::to_string(std::lround(m_settings.most_seconds)) +
                               " s; the rest of the photons were left out";
-    return !work.report.stopped.empty();
 }
 
-// Dispatches a batch; sets has_late_photons where lanes ran out of loop turns.
+// Dispatches a batch.
 void PassRunner::run_batch(Work& work, std::uint32_t first_block, std::uint32_t block_count) {
     if (work.pass.slot_count > 0) {
         const std::vector<std::uint32_t> identity = make_identity(work.layout);
@@ -171,8 +223,10 @@ void PassRunner::run_batch(Work& work, std::uint32_t first_block, std::uint32_t 
     gpu::run_in_chunks(
         m_device, STAGE, block_count, 1, {},
         [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
-            if (first > 0)
+            if (first > 0) {
+                check_limits(work);
                 quiet.report(STAGE, static_cast<double>(first) / block_count);
+            }
             push.first_block = first_block + static_cast<std::uint32_t>(first);
             push.block_count = static_cast<std::uint32_t>(count);
             for (std::uint32_t turn = 0; turn < dispatches; ++turn) {
@@ -181,17 +235,12 @@ void PassRunner::run_batch(Work& work, std::uint32_t first_block, std::uint32_t 
             }
         },
         most_blocks);
-    const std::uint32_t flags = work.status_words.read<std::uint32_t>(1)[0];
-    work.has_late_photons = work.has_late_photons || flags != 0;
+    check_limits(work);
 }
 
-bool PassRunner::run_blocks(Work& work) {
+void PassRunner::run_blocks(Work& work) {
     const std::uint32_t blocks = count_blocks(m_photons.count);
     const std::uint32_t batch = choose_batch(work);
-    ask_neighbors(work, 0, std::min<std::uint32_t>(batch * REDUCTION_BLOCK, static_cast<std::uint32_t>(m_photons.count)));
-    work.rounds = measure_rounds(work);
-    if (work.pass.slot_count == 0)
-        work.rounds = 1; // then a photon that is late leaves the others alone
     for (std::uint32_t first = 0; first < blocks && work.report.stopped.empty(); first += batch) {
         const std::uint32_t count = std::min(batch, blocks - first);
         const std::uint32_t first_photon = first * REDUCTION_BLOCK;
@@ -200,8 +249,8 @@ bool PassRunner::run_blocks(Work& work) {
         if (first > 0)
             ask_neighbors(work, first_photon, photons);
         run_batch(work, first, count);
-        if (work.has_late_photons && work.pass.slot_count > 0)
-            break;
+        if (work.has_late_photons && (work.rounds > 1 || !can_hand_over(work)))
+            return;
         if (work.pass.slot_count > 0) {
             const std::size_t size = std::size_t{work.pass.slot_count} * REDUCTION_LANES;
             const std::vector<std::uint32_t> words = work.lane_words.read<std::uint32_t>(count * size);
@@ -209,35 +258,44 @@ bool PassRunner::run_blocks(Work& work) {
                 work.blocks.push_back(combine_lanes(work.layout, std::span(words).subspan(block * size, size),
                                                     REDUCTION_LANES));
         }
-        must_stop(work);
     }
-    return !work.has_late_photons || take_late_photons(work);
 }
 
-// Photons that need more loop turns than the device has: the interpreter takes them, or, where something is reduced in
-// the order of photons, the whole loop.
+// Whether the interpreter can take single photons: where something is reduced in their order it takes the whole loop.
+bool PassRunner::can_hand_over(const Work& work) const {
+    return work.pass.slot_count == 0 && work.pass.can_miss_photons;
+}
+
+std::vector<std::uint32_t> PassRunner::list_late_photons(const Work& work) const {
+    const std::vector<std::uint32_t> words = work.late_bits.read<std::uint32_t>(m_photons.count / WORD_BITS + 1);
+    std::vector<std::uint32_t> late;
+    for (std::uint32_t photon = 0; photon < m_photons.count; ++photon)
+        if (words[photon / WORD_BITS] >> photon % WORD_BITS & 1u)
+            late.push_back(photon);
+    return late;
+}
+
+// Photons that need more loop turns than the device has.
 bool PassRunner::take_late_photons(Work& work) {
-    if (work.pass.slot_count == 0 && work.pass.can_miss_photons) {
-        const std::vector<std::uint32_t> words = work.late_bits.read<std::uint32_t>(m_photons.count / WORD_BITS + 1);
-        std::vector<std::uint32_t> late;
-        for (std::uint32_t photon = 0; photon < m_photons.count; ++photon)
-            if (words[photon / WORD_BITS] >> photon % WORD_BITS & 1u)
-                late.push_back(photon);
-        m_outputs.columns.note_device_wrote();
-        if (work.loop.sets_colors)
-            m_outputs.columns.note_colors();
-        work.interpreter.iterate_photons(work.loop, late, work.report);
-        return true;
-    }
-    if (!work.kept_parameters.is_empty()) {
-        gpu::Commands copy(m_device, STAGE);
-        copy.copy(work.kept_parameters, 0, m_columns.parameters(), 0, work.kept_parameters.size_bytes());
-        copy.run();
+    if (!can_hand_over(work)) {
+        restore_columns(work);
+        if (work.loop.sets_parameters || work.loop.sets_colors)
+            m_outputs.columns.note_device_wrote();
+        work.report.stopped.clear();
+        return false;
     }
     if (work.loop.sets_parameters || work.loop.sets_colors)
         m_outputs.columns.note_device_wrote();
-    work.report.stopped.clear();
-    return false;
+    if (work.loop.sets_colors)
+        m_outputs.columns.note_colors();
+    work.interpreter.iterate_photons(work.loop, list_late_photons(work), work.report);
+    m_columns.prepare(); // what the interpreter wrote, for the dispatches to come
+    gpu::Commands clear(m_device, STAGE);
+    clear.fill(work.late_bits, 0);
+    clear.fill(work.status_words, 0);
+    clear.run();
+    work.has_late_photons = false;
+    return true;
 }
 
 } // namespace photonloupe::script

@@ -45,9 +45,14 @@ private:
     std::uint32_t measure_rounds(Work& work) const;
     void dispatch(gpu::Commands& commands, const Work& work, const shared::ScriptPass& push,
                   std::uint32_t groups) const;
-    bool run_blocks(Work& work);
+    bool run_rounds(Work& work);
+    void start_anew(Work& work) const;
+    void restore_columns(Work& work) const;
+    void run_blocks(Work& work);
     void run_batch(Work& work, std::uint32_t first_block, std::uint32_t block_count);
-    bool must_stop(Work& work) const;
+    void check_limits(Work& work);
+    bool can_hand_over(const Work& work) const;
+    std::vector<std::uint32_t> list_late_photons(const Work& work) const;
     bool take_late_photons(Work& work);
     void collect(Work& work);
     void collect_sites(Work& work);

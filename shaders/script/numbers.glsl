@@ -112,17 +112,21 @@ float find_scale(float largest) {
     if (largest < 8.8817841970012523e-16) return 1.8446744073709552e19;
     return largest > 1.125899906842624e15 ? 5.4210108624275222e-20 : 1.0;
 }
+// Powers of two: multiplying by one divides by the other.
+float find_unscale(float scale) {
+    return scale > 1.0 ? 5.4210108624275222e-20 : scale < 1.0 ? 1.8446744073709552e19 : 1.0;
+}
 float script_magnitude(float x, float y) {
     float scale = find_scale(max(abs(x), abs(y)));
     precise float u = x * scale, v = y * scale;
     precise float sum = u * u + v * v;
-    return sqrt(sum) / scale;
+    return sqrt(sum) * find_unscale(scale);
 }
 float script_magnitude(float x, float y, float z) {
     float scale = find_scale(max(max(abs(x), abs(y)), abs(z)));
     precise float u = x * scale, v = y * scale, w = z * scale;
     precise float sum = u * u + v * v + w * w;
-    return sqrt(sum) / scale;
+    return sqrt(sum) * find_unscale(scale);
 }
 
 float script_dot(float x0, float y0, float x1, float y1) { precise float sum = x0 * x1 + y0 * y1; return sum; }

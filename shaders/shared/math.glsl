@@ -45,10 +45,12 @@ float asin_core(float x) {
 // acos(x) for |x| ≤ 1, NaN beyond. Error below 4 ulp of the result.
 float acos_exact(float x) {
     float a = abs(x);
-    if (!(a <= 1.0)) return uintBitsToFloat(0x7fc00000u);
-    if (a <= 0.5) return 1.57079632679489661923 - (x < 0.0 ? -asin_core(a) : asin_core(a));
-    float half_angle = 2.0 * asin_core(sqrt(0.5 * (1.0 - a)));
-    return x < 0.0 ? PI - half_angle : half_angle;
+    bool is_steep = a > 0.5; // there by the half angle: one polynomial serves both
+    float s = asin_core(is_steep ? sqrt(0.5 * (1.0 - a)) : a);
+    float half_angle = 2.0 * s;
+    float steep = x < 0.0 ? PI - half_angle : half_angle;
+    float flat_part = 1.57079632679489661923 - (x < 0.0 ? -s : s);
+    return !(a <= 1.0) ? uintBitsToFloat(0x7fc00000u) : is_steep ? steep : flat_part;
 }
 
 // e^x (Cephes expf): error below 2 ulp, 0 below -104, inf above 88.8.

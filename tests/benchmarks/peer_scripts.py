@@ -25,6 +25,61 @@ def make_paths(count: int) -> tuple[Floats, Floats]:
     return vertices, normals
 
 
+# The same work as scripts, written as plainly.
+TORTUOSITY = """
+alpha = 50; expose alpha range 1, 1000
+declarePhotonParameter(3, 0, 1);
+for (i = 0; i < getNumPhotons(); i++) {
+    m = getNumPathVertices(i);
+    if (m < 3) continue;
+    sum = 0;
+    for (j = 1; j < m - 1; j++) {
+        x0 = getPathVertex(i, j, X) - getPathVertex(i, j - 1, X);
+        y0 = getPathVertex(i, j, Y) - getPathVertex(i, j - 1, Y);
+        z0 = getPathVertex(i, j, Z) - getPathVertex(i, j - 1, Z);
+        x1 = getPathVertex(i, j + 1, X) - getPathVertex(i, j, X);
+        y1 = getPathVertex(i, j + 1, Y) - getPathVertex(i, j, Y);
+        z1 = getPathVertex(i, j + 1, Z) - getPathVertex(i, j, Z);
+        sum += acos(dot(x0, y0, z0, x1, y1, z1) / (magnitude(x0, y0, z0) * magnitude(x1, y1, z1)));
+    }
+    sum /= Pi * (m - 2);
+    setPhotonParameter(i, 3, sum);
+    turn = alpha * 2 * Pi * sum;
+    setPhotonColorEncoding(i, hue(turn, 0), hue(turn, 1), hue(turn, 2));
+}
+"""
+PPCA = """
+declarePhotonParameter(3, -Pi, Pi);
+declarePhotonParameter(4, -Pi, Pi);
+function push(x, y, z, turns) {
+    theta = acos(z); phi = atan2(x, y) * turns;
+    pushPCA2D(theta * sin(phi), theta * cos(phi));
+}
+for (i = 0; i < getNumPhotons(); i++) {
+    m = getNumPathVertices(i);
+    if (m < 2) continue;
+    resetPCA2D();
+    x = getPathVertex(i, 1, X) - getPathVertex(i, 0, X);
+    y = getPathVertex(i, 1, Y) - getPathVertex(i, 0, Y);
+    z = getPathVertex(i, 1, Z) - getPathVertex(i, 0, Z);
+    size = magnitude(x, y, z);
+    push(x / size, y / size, z / size, 1);
+    for (j = 1; j < m; j++) push(getPathNormal(i, j, X), getPathNormal(i, j, Y), getPathNormal(i, j, Z), 2);
+    if (!decomposePCA2D()) continue;
+    spread = sqrt(getPCAEigenvalue(0));
+    setPhotonParameter(i, 3, getPCAEigenvector(0, X) * spread);
+    setPhotonParameter(i, 4, getPCAEigenvector(0, Y) * spread);
+}
+"""
+ALPHA = 50.0
+
+
+def find_colors(gamma: Floats) -> Floats:
+    """Hue of α turns of a parameter, NumPy."""
+    turns = 2 * np.pi * (ALPHA * gamma[:, None] - np.arange(3) / 3)
+    return (0.5 + 0.5 * np.cos(turns)).astype(np.float32)
+
+
 def find_tortuosity(vertices: Floats) -> Floats:
     """Mean angle between successive segments over π ([SJL15] eq. 1), NumPy."""
     segments = np.diff(vertices, axis=1)
@@ -55,12 +110,12 @@ def find_ppca(vertices: Floats, normals: Floats) -> Floats:
     return axis * np.sqrt(largest)[:, None]
 
 
-def build_numba() -> tuple[Callable[[Floats, Floats], None], Callable[[Floats, Floats, Floats], None]]:
-    """Compile both, parallel over the paths: (vertices, out) and (vertices, normals, out)."""
+def build_numba() -> tuple[Callable[[Floats, Floats, Floats], None], Callable[[Floats, Floats, Floats], None]]:
+    """Compile both, parallel over the paths: (vertices, out, colors) and (vertices, normals, out)."""
     import numba  # noqa: PLC0415 - an optional peer
 
     @numba.njit(parallel=True, fastmath=False)
-    def tortuosity(vertices: Floats, out: Floats) -> None:
+    def tortuosity(vertices: Floats, out: Floats, colors: Floats) -> None:
         for i in numba.prange(len(vertices)):
             total = np.float32(0.0)
             for j in range(1, VERTICES - 1):
@@ -72,7 +127,10 @@ def build_numba() -> tuple[Callable[[Floats, Floats], None], Callable[[Floats, F
                 z1 = vertices[i, j + 1, 2] - vertices[i, j, 2]
                 lengths = math.sqrt(x0 * x0 + y0 * y0 + z0 * z0) * math.sqrt(x1 * x1 + y1 * y1 + z1 * z1)
                 total += math.acos(min(1.0, max(-1.0, (x0 * x1 + y0 * y1 + z0 * z1) / lengths)))
-            out[i] = total / (math.pi * (VERTICES - 2))
+            gamma = total / (math.pi * (VERTICES - 2))
+            out[i] = gamma
+            for c in range(3):
+                colors[i, c] = 0.5 + 0.5 * math.cos(2 * math.pi * (ALPHA * gamma - c / 3))
 
     @numba.njit(parallel=True, fastmath=False)
     def ppca(vertices: Floats, normals: Floats, out: Floats) -> None:
@@ -115,6 +173,7 @@ def build_taichi(vertices: Floats, normals: Floats) -> tuple[Work, Work, Callabl
     places = ti.Vector.field(3, ti.f32, shape=(count, VERTICES))
     facings = ti.Vector.field(3, ti.f32, shape=(count, VERTICES))
     gamma = ti.field(ti.f32, shape=count)
+    colors = ti.Vector.field(3, ti.f32, shape=count)
     axes = ti.Vector.field(2, ti.f32, shape=count)
     places.from_numpy(vertices)
     facings.from_numpy(normals)
@@ -128,7 +187,10 @@ def build_taichi(vertices: Floats, normals: Floats) -> tuple[Work, Work, Callabl
                 t = places[i, j + 1] - places[i, j]
                 cosine = s.dot(t) / (s.norm() * t.norm())
                 total += ti.acos(ti.min(1.0, ti.max(-1.0, cosine)))
-            gamma[i] = total / (math.pi * (VERTICES - 2))
+            bent = total / (math.pi * (VERTICES - 2))
+            gamma[i] = bent
+            for c in ti.static(range(3)):
+                colors[i][c] = 0.5 + 0.5 * ti.cos(2 * math.pi * (ALPHA * bent - c / 3))
 
     @ti.kernel
     def ppca():

@@ -16,9 +16,9 @@ import photonloupe as pl
 
 COMMANDS = """\
     apt-get install libllvm19 libnanoflann-dev
-    ./photonloupe python -m pip install mitsuba numba pykdtree scipy    # the extra `bench`
+    ./photonloupe python -m pip install mitsuba numba pykdtree scikit-learn scipy taichi    # the extra `bench`
     ./photonloupe python tests/benchmarks/run.py"""
-PACKAGES = ("scipy", "numba", "pykdtree")
+PACKAGES = ("scipy", "numba", "pykdtree", "taichi", "scikit-learn")
 HEAD = "| work | peer | peer's figure | ours | ratio ours/peer | gate | met |\n|---|---|---|---|---|---|---|"
 
 

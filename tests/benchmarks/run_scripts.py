@@ -20,14 +20,22 @@ from measure import (
     print_subject,
     time_in_turn,
 )
-from peer_scripts import VERTICES, build_numba, build_taichi, find_ppca, find_tortuosity, make_paths
-from scene_data import SCENES
+from peer_scripts import (
+    PPCA,
+    TORTUOSITY,
+    VERTICES,
+    build_numba,
+    build_taichi,
+    find_colors,
+    find_ppca,
+    find_tortuosity,
+    make_paths,
+)
 
 import photonloupe as pl
 
 COUNT = 1_000_000
 SIZES = (100_000, 1_000_000, 10_000_000)
-SCRIPTS = SCENES / "scripts"
 TAICHI_GATE = 1 / 1.5  # our speed over Taichi's
 CLUSTERS, KMEANS_GATE = 8, 1 / 5  # our speed over scikit-learn's, an iteration
 SPIRV_GATE, EDIT_GATE, SLIDER_GATE = 0.05, 1.0, 0.15  # s
@@ -90,19 +98,20 @@ def time_algorithms(subject: Subject) -> None:
     photons = make_map(COUNT)
     vertices, normals = make_paths(COUNT)
     peers: dict[str, tuple[Callable[[], object], Callable[[], object]]] = {
-        "NumPy": (lambda: find_tortuosity(vertices), lambda: find_ppca(vertices, normals))
+        "NumPy": (lambda: find_colors(find_tortuosity(vertices)), lambda: find_ppca(vertices, normals))
     }
     if is_installed("numba"):
         tortuosity, ppca = build_numba()
         gamma, axes = np.empty(COUNT, np.float32), np.empty((COUNT, 2), np.float32)
-        peers["Numba"] = (lambda: tortuosity(vertices, gamma), lambda: ppca(vertices, normals, axes))
+        colors = np.empty((COUNT, 3), np.float32)
+        peers["Numba"] = (lambda: tortuosity(vertices, gamma, colors), lambda: ppca(vertices, normals, axes))
     if is_installed("taichi"):
         first, second, _ = build_taichi(vertices, normals)
         peers["Taichi (Vulkan)"] = (first, second)
     for missing in {"Numba", "Taichi (Vulkan)"} - set(peers):
         subject.skipped.append(f"{missing}: not installed (pip install '.[bench]')")
-    for number, name in enumerate(("tortuosity", "ppca")):
-        script = pl.compile_script(SCRIPTS / f"{name}.photon")
+    for number, (name, text) in enumerate((("tortuosity with colors", TORTUOSITY), ("PPCA", PPCA))):
+        script = pl.compile_script(text)
         rounds: dict[str, Round] = {peer: partial(run_work, work=runs[number]) for peer, runs in peers.items()}
         rounds["ours"] = partial(run_passes, photons=photons, script=script)
         seconds = time_in_turn(rounds)
@@ -165,17 +174,17 @@ def time_kmeans(subject: Subject) -> None:
 
 def time_edits(subject: Subject) -> None:
     """Rows of what a user waits for: an edited text, a moved slider, and how both grow with the map."""
-    text = (SCRIPTS / "tortuosity.photon").read_text()
+    text = TORTUOSITY
     unseen = time.time_ns()
     spirv, edits = [], []
     photons = make_map(COUNT)
     for number in range(PAIRS + 1):
-        # A constant no cache has met: nothing of the edited script is known.
-        edited = f"{text}\nfor (i = 0; i < getNumPhotons(); i++) seen = {(unseen + number) % 16_777_213};\n"
+        # A constant no cache has met: nothing of the edited pass is known.
+        edited = text.replace("2 * Pi * sum", f"2 * Pi * sum + {(unseen + number) % 16_777_213}e-20")
         start = time.perf_counter()
         pl.compile_script(edited).spirv()
         spirv.append(time.perf_counter() - start)
-        edited = edited.replace("seen = ", "met = ")
+        edited = edited.replace("e-20", "e-21")
         start = time.perf_counter()
         photons.run_script(edited)
         edits.append(time.perf_counter() - start)

@@ -2,6 +2,7 @@
 // Runs scripts with their passes on the device, beside the interpreter, over photons made by hand.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "script/interpret.h"
@@ -17,7 +18,7 @@ Ran run_on_device(const std::string& text, HostPhotons photons, const RunSetting
 struct Comparison {
     double ulps = 0;       // of numbers
     double absolute = 0;   // or that near
-    bool is_parallel = true; // all its photon loops must be
+    std::optional<bool> is_parallel = true; // what all its photon loops must be; absent: either
 };
 
 // Runs a script both ways and expects the same variables, parameters, colors, histograms, prints and faults.
