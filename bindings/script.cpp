@@ -3,6 +3,8 @@
 #include "binding.h"
 
 #include "core/hash.h"
+#include "script/builtins.h"
+#include "script/diagnostic_codes.h"
 
 namespace photonloupe::bindings {
 namespace {
@@ -277,6 +279,30 @@ nb::dict run(BoundScript& self, OpenDevice& open, Photons& photons, const nb::di
     }));
 }
 
+nb::list list_builtins() {
+    nb::list rows;
+    for (const script::Builtin& builtin : script::list_builtins()) {
+        nb::dict row;
+        row["name"] = std::string(builtin.name);
+        row["signature"] = std::string(builtin.signature);
+        row["group"] = std::string(builtin.group);
+        row["doc"] = std::string(builtin.doc);
+        rows.append(row);
+    }
+    return rows;
+}
+
+nb::list list_codes() {
+    nb::list rows;
+    for (const script::DiagnosticCode& code : script::list_diagnostic_codes()) {
+        nb::dict row;
+        row["code"] = std::string(code.code);
+        row["meaning"] = std::string(code.meaning);
+        rows.append(row);
+    }
+    return rows;
+}
+
 } // namespace
 
 void bind_script(nb::module_& module) {
@@ -293,6 +319,8 @@ void bind_script(nb::module_& module) {
              nb::arg("progress").none() = nb::none(),
              "Run over a map; settings: values, keep, seed, fuel, exhausted, seconds, and what keep keeps: parameters, "
              "old_values, old_colors.");
+    module.def("list_script_builtins", &list_builtins, "Every predefined call: name, signature, group, doc.");
+    module.def("list_script_codes", &list_codes, "Every diagnostic code with its meaning.");
 }
 
 } // namespace photonloupe::bindings

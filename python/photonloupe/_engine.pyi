@@ -177,6 +177,12 @@ class Script:
         Run over a map; settings: values, keep, seed, fuel, exhausted, seconds, and what keep keeps: parameters, old_values, old_colors.
         """
 
+def list_script_builtins() -> list:
+    """Every predefined call: name, signature, group, doc."""
+
+def list_script_codes() -> list:
+    """Every diagnostic code with its meaning."""
+
 class Relaxation:
     def step(self, progress: object | None = None) -> dict:
         """One step; what it did."""
