@@ -164,8 +164,8 @@ void set_paths(OpenDevice& open, Photons& photons, const nb::dict& columns) {
     const auto take = [&]<class T>(const char* name, T) {
         return columns.contains(name) ? take_span<T>(columns, name) : std::span<const T>{};
     };
-    const PathArrays arrays{take("path_offsets", std::int64_t{}),  take("path_vertices", 0.0f),
-                            take("path_normals", 0.0f),            take("path_interactions", std::uint8_t{}),
+    const PathArrays arrays{take("path_offsets", std::int64_t{}), take("path_vertices", 0.0f),
+                            take("path_normals", 0.0f),           take("path_interactions", std::uint8_t{}),
                             take("path_objects", std::int32_t{}), take("path_scatter", 0.0f)};
     photons.map.paths = make_paths(open.device, arrays, photons.map.origin);
 }

@@ -105,8 +105,9 @@ const char* name_role(script::Role role) {
 }
 
 const char* name_space(script::NeighborQuery::Space space) {
-    return space == script::NeighborQuery::Space::world ? "world"
-           : space == script::NeighborQuery::Space::parameter ? "parameter" : "constrained";
+    return space == script::NeighborQuery::Space::world       ? "world"
+           : space == script::NeighborQuery::Space::parameter ? "parameter"
+                                                              : "constrained";
 }
 
 nb::list list_passes(const BoundScript& self) {
@@ -145,8 +146,7 @@ nb::list list_spirv(const BoundScript& self) {
     for (std::size_t i = 0; i < self.compiled->passes.size(); ++i) {
         if (!self.compiled->plan.loops[i].is_parallel)
             continue;
-        const std::vector<std::uint32_t> words =
-            gpu::compile_generated(script::name_kernel(self.compiled->passes[i]));
+        const std::vector<std::uint32_t> words = gpu::compile_generated(script::name_kernel(self.compiled->passes[i]));
         passes.append(nb::bytes(reinterpret_cast<const char*>(words.data()), words.size() * sizeof words[0]));
     }
     return passes;
@@ -185,8 +185,7 @@ nb::dict describe_report(const BoundScript& self, const script::ScriptRun& run) 
         row["milliseconds"] = loop.milliseconds;
         row["exhausted"] = loop.exhausted;
         row["first_exhausted"] = photon_or_none(loop.first_exhausted);
-        row["exhausted_line"] =
-            loop.exhausted ? nb::cast(source.find_place(loop.exhausted_at.begin).line) : nb::none();
+        row["exhausted_line"] = loop.exhausted ? nb::cast(source.find_place(loop.exhausted_at.begin).line) : nb::none();
         row["stopped"] = loop.stopped;
         passes.append(row);
     }

@@ -193,10 +193,9 @@ gpu::Buffer Workbench::estimate_irradiance(Photons& photons, std::span<const glm
                                            const Progress& progress) {
     require_k(settings.k);
     const KdTree& tree = find_tree(photons, progress);
-    return photonloupe::estimate_irradiance(m_device, photons.map.power_object, tree,
-                                            gpu::make_buffer(m_device, points, "points"),
-                                            gpu::make_buffer(m_device, normals, "normals"), order_points(points),
-                                            settings, progress);
+    return photonloupe::estimate_irradiance(
+        m_device, photons.map.power_object, tree, gpu::make_buffer(m_device, points, "points"),
+        gpu::make_buffer(m_device, normals, "normals"), order_points(points), settings, progress);
 }
 
 Image Workbench::render(const Scene& scene, Photons* photons, const RenderSettings& settings,

@@ -10,10 +10,10 @@
 namespace photonloupe {
 
 enum class RenderMode {
-    composite, // emission + direct + map; without direct when the map stores direct hits too
-    caustic,   // the map alone
-    direct,    // emission + direct
-    photons,   // stored photons as points
+    composite,   // emission + direct + map; without direct when the map stores direct hits too
+    caustic,     // the map alone
+    direct,      // emission + direct
+    photons,     // stored photons as points
     false_color, // the mean color of the photons around, times the luminance of their irradiance
 };
 

@@ -17,7 +17,7 @@ struct ChoiceStatement {
     Role role = Role::least;
     std::uint32_t decided = 0;
     const Expression* candidate = nullptr;
-    const Expression* index = nullptr; // of array elements
+    const Expression* index = nullptr;      // of array elements
     const Expression* decision = nullptr;   // the assignment of the winner
     std::vector<const Expression*> payload; // the other assignments, in order
 };
@@ -29,7 +29,7 @@ struct ReductionStep {
     std::uint32_t variable = 0;
     const Expression* operand = nullptr; // absent: 1, of ++ and --
     const Expression* index = nullptr;
-    bool is_negated = false;             // s -= e
+    bool is_negated = false; // s -= e
 };
 std::optional<ReductionStep> match_reduction(const Program& program, const Expression& expression);
 
@@ -51,7 +51,7 @@ struct BodyAccesses {
     std::map<std::uint32_t, NameAccesses> names; // variables and accumulators (FlowNames)
     std::vector<const Expression*> calls;        // of builtins, in order
     std::map<const Statement*, ChoiceStatement> choices;
-    std::vector<Span> leaves;                    // breaks out of the photon loop
+    std::vector<Span> leaves; // breaks out of the photon loop
     bool has_unbounded_loop = false;
 };
 

@@ -7,7 +7,8 @@
 namespace photonloupe::script {
 namespace {
 
-template <class T> std::int32_t compare(Operator operation, T a, T b) {
+template <class T>
+std::int32_t compare(Operator operation, T a, T b) {
     switch (operation) {
     case Operator::equal:
         return a == b;

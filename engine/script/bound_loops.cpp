@@ -89,8 +89,8 @@ private:
             return std::nullopt;
         const Expression* amount = &last.operands[0];
         Operator operation = last.operation;
-        if (operation == Operator::none && amount->kind == Kind::binary &&
-            amount->operands[0].kind == Kind::variable && amount->operands[0].variable == last.variable) {
+        if (operation == Operator::none && amount->kind == Kind::binary && amount->operands[0].kind == Kind::variable &&
+            amount->operands[0].variable == last.variable) {
             operation = amount->operation;
             amount = &amount->operands[1];
         }
@@ -106,8 +106,8 @@ private:
     bool is_steady(const Statement& loop, const Expression& step) const {
         bool is_steady = true;
         const auto look = [&](const Expression& expression) {
-            is_steady &= expression.kind != Kind::assignment || expression.variable != step.variable ||
-                         &expression == &step;
+            is_steady &=
+                expression.kind != Kind::assignment || expression.variable != step.variable || &expression == &step;
         };
         visit_expressions(loop.body, look);
         visit_expressions(*loop.value, look);

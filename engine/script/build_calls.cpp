@@ -61,8 +61,8 @@ void TreeBuilder::refuse_unknown_function(const SyntaxExpression& call) {
         note = "an element is written " + call.name + "[j]";
     } else if (const std::string near = suggest_name(call.name, known); !near.empty()) {
         const Builtin* const builtin = find_builtin(near);
-        note = "did you mean '" +
-               (builtin ? std::string(builtin->signature) : write_signature(*m_functions.at(near))) + "'?";
+        note = "did you mean '" + (builtin ? std::string(builtin->signature) : write_signature(*m_functions.at(near))) +
+               "'?";
     }
     m_diagnostics.add(codes::UNKNOWN_FUNCTION, call.name_span, "unknown function '" + call.name + "'", note);
 }
@@ -72,7 +72,7 @@ bool TreeBuilder::check_argument_count(const SyntaxExpression& call, std::size_t
     const std::size_t count = call.operands.size();
     if (count >= least && count <= most)
         return true;
-    const std::string wanted = least == most ? count_arguments(least)
+    const std::string wanted = least == most   ? count_arguments(least)
                                : count < least ? "at least " + count_arguments(least)
                                                : "at most " + count_arguments(most);
     m_diagnostics.add(codes::ARGUMENT_COUNT, call.span,
@@ -84,8 +84,8 @@ Expression TreeBuilder::build_builtin(const SyntaxExpression& syntax, const Buil
     const std::string signature(builtin.signature);
     Expression call = make_expression(Kind::builtin, syntax.span);
     call.builtin = &builtin;
-    bool is_complete = check_argument_count(
-        syntax, builtin.required, builtin.variadic ? ANY_NUMBER : builtin.arguments.size(), signature);
+    bool is_complete = check_argument_count(syntax, builtin.required,
+                                            builtin.variadic ? ANY_NUMBER : builtin.arguments.size(), signature);
     if (is_complete && builtin.id == BuiltinId::dot && syntax.operands.size() == 5) {
         m_diagnostics.add(codes::ARGUMENT_COUNT, syntax.span, "'dot' takes 4 or 6 arguments, not 5", signature);
         is_complete = false;

@@ -145,8 +145,7 @@ Expression TreeBuilder::build_name(const SyntaxExpression& syntax) {
 }
 
 Expression TreeBuilder::build_index(const SyntaxExpression& syntax) {
-    const std::optional<std::uint32_t> found =
-        find_constant_name(syntax.name) ? std::nullopt : resolve(syntax);
+    const std::optional<std::uint32_t> found = find_constant_name(syntax.name) ? std::nullopt : resolve(syntax);
     Expression index = build_value(syntax.operands[0]);
     if (!found && !find_constant_name(syntax.name))
         return make_unknown(syntax.span);
@@ -207,8 +206,9 @@ Expression TreeBuilder::build_list_assignment(const SyntaxExpression& syntax, st
     if (!is_plain || value.kind != Kind::builtin || value.type != Type::list || !is_statement) {
         if (!is_unknown(value))
             m_diagnostics.add(codes::LIST_MISUSE, syntax.span,
-                              "'" + target.name + "' is a neighbor list: only a query's result is assigned to it, in a "
-                              "statement of its own");
+                              "'" + target.name +
+                                  "' is a neighbor list: only a query's result is assigned to it, in a "
+                                  "statement of its own");
         return make_unknown(syntax.span);
     }
     Expression assignment = make_assignment(index, syntax.span, std::move(value));

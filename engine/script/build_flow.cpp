@@ -235,7 +235,9 @@ private:
 
 } // namespace
 
-Flow build_flow(const Program& program) { return Builder(program).build(); }
+Flow build_flow(const Program& program) {
+    return Builder(program).build();
+}
 
 std::vector<std::uint32_t> list_own_variables(const Program& program, const Function& function) {
     std::vector<std::uint32_t> own = function.parameters;

@@ -64,8 +64,7 @@ std::uint32_t TreeBuilder::declare(const Declarator& declarator) {
     const bool hides_predefined = place->second < std::size(PREDEFINED_VALUES);
     if (!is_new && !hides_predefined) {
         const Place first = m_draft.program.source.find_place(variable(place->second).span.begin);
-        m_diagnostics.add(codes::NAME_TAKEN, declarator.span,
-                          "there is a variable '" + declarator.name + "' already",
+        m_diagnostics.add(codes::NAME_TAKEN, declarator.span, "there is a variable '" + declarator.name + "' already",
                           "first on line " + std::to_string(first.line));
     }
     place->second = index;
@@ -111,8 +110,8 @@ void TreeBuilder::refuse_unknown_variable(const SyntaxExpression& name) {
                 known.push_back(known_name);
     std::string note;
     if (const auto later = m_script_names.find(name.name); later != m_script_names.end())
-        note = "it is declared on line " +
-               std::to_string(m_draft.program.source.find_place(later->second.begin).line) + ", after this";
+        note = "it is declared on line " + std::to_string(m_draft.program.source.find_place(later->second.begin).line) +
+               ", after this";
     else if (const Builtin* const builtin = find_builtin(name.name))
         note = "a function is called with parentheses: " + std::string(builtin->signature);
     else if (const auto function = m_functions.find(name.name); function != m_functions.end())

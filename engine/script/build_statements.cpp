@@ -60,8 +60,8 @@ void TreeBuilder::build_statement(const SyntaxStatement& syntax, std::vector<Sta
 
 void TreeBuilder::build_expression_statement(const SyntaxExpression& syntax, std::vector<Statement>& out) {
     Statement statement = make_statement(Statement::Kind::expression, syntax.span);
-    statement.value = syntax.kind == SyntaxExpression::Kind::assignment ? build_assignment(syntax, true)
-                                                                        : build_any(syntax);
+    statement.value =
+        syntax.kind == SyntaxExpression::Kind::assignment ? build_assignment(syntax, true) : build_any(syntax);
     if (statement.value->type == Type::text)
         m_diagnostics.add(codes::TEXT_MISUSE, syntax.span, "a label is no statement");
     out.push_back(std::move(statement));
@@ -134,14 +134,14 @@ void TreeBuilder::build_loop(const SyntaxStatement& syntax, std::vector<Statemen
 void TreeBuilder::build_jump(const SyntaxStatement& syntax, std::vector<Statement>& out) {
     const bool is_return = syntax.kind == SyntaxStatement::Kind::give;
     if (is_return ? !m_context.function : m_context.loop_depth == 0) {
-        const std::string word = is_return                                       ? "return"
+        const std::string word = is_return                                     ? "return"
                                  : syntax.kind == SyntaxStatement::Kind::leave ? "break"
                                                                                : "continue";
         m_diagnostics.add(codes::JUMP_OUTSIDE, syntax.span,
                           "'" + word + "' stands outside a " + (is_return ? "function" : "loop"));
         return;
     }
-    Statement jump = make_statement(is_return                                           ? Statement::Kind::give
+    Statement jump = make_statement(is_return                                     ? Statement::Kind::give
                                     : syntax.kind == SyntaxStatement::Kind::leave ? Statement::Kind::leave
                                                                                   : Statement::Kind::next,
                                     syntax.span);

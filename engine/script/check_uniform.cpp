@@ -23,7 +23,8 @@ struct LoopFacts {
     bool sets_parameters = false;
 };
 
-template <class Visit> void visit_own_expressions(const Statement& statement, Visit&& visit) {
+template <class Visit>
+void visit_own_expressions(const Statement& statement, Visit&& visit) {
     for (const Expression& expression : statement.first)
         visit_expressions(expression, visit);
     if (statement.value)

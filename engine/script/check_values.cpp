@@ -87,8 +87,7 @@ private:
         const Builtin& builtin = *call.builtin;
         for (std::size_t i = 0; i < call.operands.size() && i < builtin.arguments.size(); ++i) {
             const std::optional<Bounds> bounds = find_bounds(builtin, builtin.arguments[i]);
-            const std::optional<double> value =
-                bounds ? evaluate_constant(m_program, call.operands[i]) : std::nullopt;
+            const std::optional<double> value = bounds ? evaluate_constant(m_program, call.operands[i]) : std::nullopt;
             if (value && check_whole(*value, call.operands[i].span, bounds->what))
                 check_bounds(call, *bounds, *value, call.operands[i].span);
         }
@@ -100,11 +99,10 @@ private:
         if (value >= bounds.low && value <= bounds.high)
             return;
         const bool sets_position = bounds.low == 3 && value >= 0 && value < 3;
-        const std::string range = bounds.high == HUGE_VAL ? "starts at 0"
-                                                          : "is " + format_number(bounds.low) + " to " +
-                                                                format_number(bounds.high);
-        m_diagnostics.add(bounds.code, span,
-                          std::string(bounds.what) + " " + range + ", not " + format_number(value),
+        const std::string range = bounds.high == HUGE_VAL
+                                      ? "starts at 0"
+                                      : "is " + format_number(bounds.low) + " to " + format_number(bounds.high);
+        m_diagnostics.add(bounds.code, span, std::string(bounds.what) + " " + range + ", not " + format_number(value),
                           sets_position ? "dimensions 0-2 are the position, which can't be set"
                                         : std::string(call.builtin->signature));
     }
@@ -116,8 +114,7 @@ private:
         const std::optional<double> high = evaluate_constant(m_program, call.operands[first + 1]);
         const bool is_ordered = !low || !high || (*low < *high && std::isfinite(*low) && std::isfinite(*high));
         if (!is_ordered)
-            m_diagnostics.add(codes::BAD_RANGE,
-                              {call.operands[first].span.begin, call.operands[first + 1].span.end},
+            m_diagnostics.add(codes::BAD_RANGE, {call.operands[first].span.begin, call.operands[first + 1].span.end},
                               "the lower bound must be below the upper, both finite",
                               std::string(call.builtin->signature));
     }

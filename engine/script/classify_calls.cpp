@@ -44,7 +44,9 @@ void refuse_query(const LoopFacts& facts, const NeighborQuery& query, Diagnostic
                     "split the loop: set the parameters in one loop over photons, query them in the next");
 }
 
-std::string quote(const Expression& call) { return "'" + std::string(call.builtin->name) + "'"; }
+std::string quote(const Expression& call) {
+    return "'" + std::string(call.builtin->name) + "'";
+}
 
 } // namespace
 
@@ -52,15 +54,19 @@ void classify_calls(const LoopFacts& facts, PhotonLoop& loop, Diagnostics& diagn
     for (const Expression* call : facts.accesses.calls) {
         switch (call->builtin->id) {
         case BuiltinId::set_photon_parameter:
-            loop.sets_parameters = true; break;
+            loop.sets_parameters = true;
+            break;
         case BuiltinId::set_photon_colour_encoding:
-            loop.sets_colors = true; break;
+            loop.sets_colors = true;
+            break;
         case BuiltinId::print:
-            loop.prints = true; break;
+            loop.prints = true;
+            break;
         case BuiltinId::get_knn:
         case BuiltinId::get_parameter_knn:
         case BuiltinId::get_constrained_knn:
-            add_query(facts, loop, *call); break;
+            add_query(facts, loop, *call);
+            break;
         case BuiltinId::get_photon_parameter:
             if (reads_position(facts, loop, *call)) {
                 loop.columns |= COLUMN_POSITION;

@@ -51,8 +51,7 @@ void DeviceColumns::upload() {
 void DeviceColumns::download(ScriptColumns& columns) const {
     std::vector<std::vector<float>>& parameters = columns.host_parameters();
     for (std::size_t i = 0; i < std::min(parameters.size(), m_dimensions); ++i)
-        m_parameters.download(parameters[i].data(), m_photon_count * sizeof(float),
-                              i * m_photon_count * sizeof(float));
+        m_parameters.download(parameters[i].data(), m_photon_count * sizeof(float), i * m_photon_count * sizeof(float));
     std::vector<float>& colors = columns.host_colors();
     const std::vector<glm::vec4> packed = m_colors.read<glm::vec4>(m_photon_count);
     for (std::size_t i = 0; i < packed.size(); ++i)

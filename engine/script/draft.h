@@ -20,7 +20,7 @@ struct Draft {
     std::vector<WrittenType> variable_types; // as declared, by variable
     std::vector<WrittenType> result_types;   // as declared, by function copy
     std::vector<PendingSize> sizes;
-    bool is_too_large = false;               // building stopped: nothing more can be said about it
+    bool is_too_large = false; // building stopped: nothing more can be said about it
 
     // How much belongs to the script itself. What follows stands for calls of functions that nothing calls: it is
     // checked and then dropped.
@@ -29,12 +29,14 @@ struct Draft {
     } called;
 
     // The bodies of the script and of all its functions' copies, each entered once.
-    template <class Visit> void visit_bodies(Visit&& visit) {
+    template <class Visit>
+    void visit_bodies(Visit&& visit) {
         visit(program.body);
         for (Function& function : program.functions)
             visit(function.body);
     }
-    template <class Visit> void visit_bodies(Visit&& visit) const {
+    template <class Visit>
+    void visit_bodies(Visit&& visit) const {
         visit(program.body);
         for (const Function& function : program.functions)
             visit(function.body);

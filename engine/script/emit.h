@@ -64,8 +64,8 @@ struct EmittedPass {
     std::optional<std::uint32_t> moments_2d_slot, moments_3d_slot; // first photon starts as 0xffffffff, the rest as 0
     std::uint32_t slot_count = 0; // 0: nothing is reduced; else dispatch one group (ScriptPass)
 
-    std::vector<PassSite> sites;       // in the order of fault_words
-    bool can_miss_photons = true;      // a photon in late_bits has left no trace; else the interpreter takes the loop
+    std::vector<PassSite> sites;        // in the order of fault_words
+    bool can_miss_photons = true;       // a photon in late_bits has left no trace; else the interpreter takes the loop
     std::optional<Diagnostic> too_long; // the pass has more GLSL than MAX_GLSL_BYTES; glsl is empty then
 };
 

@@ -19,7 +19,9 @@ const char* find_sign(Operator operation) {
     }
 }
 
-std::string wrap(const Code& code) { return code.binding > Binding::unary ? "(" + code.text + ")" : code.text; }
+std::string wrap(const Code& code) {
+    return code.binding > Binding::unary ? "(" + code.text + ")" : code.text;
+}
 
 } // namespace
 

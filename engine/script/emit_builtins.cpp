@@ -128,8 +128,8 @@ Code Emitter::emit_report(const Expression& e) {
     use("histograms");
     m_has_element_reductions = true;
     const auto give = [&](const Expression& operand) { return substitute_given(m_program, m_loop, operand); };
-    PassHistogram histogram{&e, e.operands[0].label, give(e.operands[2]), give(e.operands[3]), {},
-                            m_pass.uniform_word_count};
+    PassHistogram histogram{&e, e.operands[0].label,      give(e.operands[2]), give(e.operands[3]),
+                            {}, m_pass.uniform_word_count};
     if (e.operands.size() > 4)
         histogram.bins = give(e.operands[4]);
     m_pass.uniform_word_count += shared::HISTOGRAM_STRIDE;

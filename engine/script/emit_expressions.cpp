@@ -43,7 +43,9 @@ OperatorText find_operator(Operator operation) {
     }
 }
 
-bool is_comparison(Operator operation) { return operation >= Operator::equal && operation <= Operator::greater_equal; }
+bool is_comparison(Operator operation) {
+    return operation >= Operator::equal && operation <= Operator::greater_equal;
+}
 
 // The right operand of an operator that groups to the left must bind more tightly.
 Code join(const Code& a, OperatorText operation, const Code& b) {
@@ -146,8 +148,8 @@ Code Emitter::emit_variable(const Expression& e) {
     const bool is_stable = use_of(e.variable).role == Role::uniform || e.variable == m_loop.statement->variable;
     if (!is_checked(e.variable))
         return {name, Binding::primary, is_stable};
-    return {"check_set(" + m_set_flags.at(e.variable) + ", " + name + ", " +
-                find_site(Fault::unset_variable, e.span) + ")",
+    return {"check_set(" + m_set_flags.at(e.variable) + ", " + name + ", " + find_site(Fault::unset_variable, e.span) +
+                ")",
             Binding::primary, is_stable};
 }
 
@@ -295,14 +297,15 @@ Code Emitter::emit_list(const Expression& e) {
 
 Code Emitter::emit_list_item(const Expression& e) {
     use("neighbors");
-    const std::vector<Code> codes = emit_in_order(
-        {[&] { return emit_list(e.operands[0]); },
-         [&] {
-             const Expression& list = e.operands[0];
-             const std::string name = list.kind == Expression::Kind::variable ? m_names.at(list.variable) : "LIST";
-             return emit_place(e.operands[1], name + ".y", Fault::list_index);
-         }},
-        {Type::list, Type::integer});
+    const std::vector<Code> codes = emit_in_order({[&] { return emit_list(e.operands[0]); },
+                                                   [&] {
+                                                       const Expression& list = e.operands[0];
+                                                       const std::string name = list.kind == Expression::Kind::variable
+                                                                                    ? m_names.at(list.variable)
+                                                                                    : "LIST";
+                                                       return emit_place(e.operands[1], name + ".y", Fault::list_index);
+                                                   }},
+                                                  {Type::list, Type::integer});
     std::string place = codes[1].text;
     if (const std::size_t at = place.find("LIST.y"); at != std::string::npos)
         place.replace(at, 4, codes[0].text);

@@ -7,7 +7,9 @@
 namespace photonloupe::script {
 namespace {
 
-std::string indent(std::uint32_t depth) { return std::string(4 * depth, ' '); }
+std::string indent(std::uint32_t depth) {
+    return std::string(4 * depth, ' ');
+}
 
 } // namespace
 
@@ -214,8 +216,8 @@ std::string Emitter::compose_main() const {
                        "    uint lane = gl_LocalInvocationID.x;\n";
     const std::vector<Register> registers = list_registers();
     if (m_pass.slot_count > 0)
-        text += "    lane_base = (block - settings.lane_block) * " +
-                std::to_string(m_pass.slot_count) + "u * SCRIPT_LANES + lane;\n";
+        text += "    lane_base = (block - settings.lane_block) * " + std::to_string(m_pass.slot_count) +
+                "u * SCRIPT_LANES + lane;\n";
     for (const Register& r : registers)
         text += "    " + r.name + " = " + r.load + "(" + std::to_string(r.slot) + "u);\n";
     text += "    for (uint round = first_round; round < min(first_round + settings.rounds, SCRIPT_ROUNDS); ++round) {\n"

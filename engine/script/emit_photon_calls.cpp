@@ -9,7 +9,9 @@ namespace {
 
 const char* const COMPONENTS[] = {".x", ".y", ".z"};
 
-bool is_axis(const std::optional<double>& value) { return value && (*value == 0 || *value == 1 || *value == 2); }
+bool is_axis(const std::optional<double>& value) {
+    return value && (*value == 0 || *value == 1 || *value == 2);
+}
 
 // As a whole number, where it is one that a dimension can have.
 std::optional<int> find_dimension(const std::optional<double>& value) {
@@ -100,9 +102,7 @@ Code Emitter::emit_path_call(const Expression& e) {
              return code;
          },
          [&] { return emit_vertex(e.operands[1], path, Fault::vertex_index, "int(" + path + ".y)"); },
-         [&] {
-             return has_axis && !is_known ? emit_vertex(e.operands[2], path, Fault::axis_index, "3") : Code{"0"};
-         }},
+         [&] { return has_axis && !is_known ? emit_vertex(e.operands[2], path, Fault::axis_index, "3") : Code{"0"}; }},
         {Type::none, Type::integer, Type::integer});
     const std::string arguments = "(" + path + ", " + codes[1].text + ")";
     const bool is_stable = codes[1].is_stable && (!has_axis || is_known || codes[2].is_stable);
@@ -173,8 +173,8 @@ Code Emitter::emit_get_parameter(const Expression& e) {
         return {read, Binding::primary, false, 4};
     use("positions");
     use("axes");
-    return {"(" + codes[1].text + " < 3 ? pick_axis(read_position(" + codes[0].text + "), " + codes[1].text + ") : " +
-                read + ")",
+    return {"(" + codes[1].text + " < 3 ? pick_axis(read_position(" + codes[0].text + "), " + codes[1].text +
+                ") : " + read + ")",
             Binding::primary, false, 4};
 }
 

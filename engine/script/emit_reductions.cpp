@@ -24,15 +24,14 @@ bool Emitter::emit_reduction(const Expression& e) {
     const Type type = variable(step->variable).type;
     const std::string& name = m_names.at(step->variable);
     const std::string size = std::to_string(std::max(1u, variable(step->variable).array_size));
-    const std::vector<Code> codes = emit_in_order(
-        {[&] { return step->index ? emit_place(*step->index, size, Fault::array_index) : Code{"0"}; },
-         [&] { return emit_as(*step->operand, type); }},
-        {Type::integer, type});
+    const std::vector<Code> codes =
+        emit_in_order({[&] { return step->index ? emit_place(*step->index, size, Fault::array_index) : Code{"0"}; },
+                       [&] { return emit_as(*step->operand, type); }},
+                      {Type::integer, type});
     const std::string value = step->is_negated ? "-(" + codes[1].text + ")" : codes[1].text;
     if (step->index)
-        write_line(find_element_function(step->role) +
-                   std::to_string(m_lane_of.at(step->variable)->first_slot) + "u, " + codes[0].text + ", " + value +
-                   ");");
+        write_line(find_element_function(step->role) + std::to_string(m_lane_of.at(step->variable)->first_slot) +
+                   "u, " + codes[0].text + ", " + value + ");");
     else if (step->role == Role::sum)
         write_line(name + (step->is_negated ? " -= " : " += ") + codes[1].text + ";");
     else
@@ -59,8 +58,8 @@ void Emitter::emit_element_choice(const ChoiceStatement& choice, const Code& pla
          place.text + ", " + candidate.text + ", " + (choice.role == Role::least ? "true" : "false") + "))");
     for (const Expression* assignment : choice.payload)
         write_line("store(" + std::to_string(m_lane_of.at(assignment->variable)->first_slot) + "u + uint(" +
-                   place.text + "), " +
-                   emit_as(assignment->operands[0], variable(assignment->variable).type).text + ");");
+                   place.text + "), " + emit_as(assignment->operands[0], variable(assignment->variable).type).text +
+                   ");");
     close();
     if (variable(choice.decided).type != Type::integer)
         return;

@@ -18,8 +18,8 @@ std::string find_single(const Block& block) {
     const std::size_t first = block.text.find_first_not_of(' ');
     const std::string text = block.text.substr(first, end - first);
     const std::size_t space = text.find(' ');
-    const bool is_declaration = space != std::string::npos && std::isalnum(static_cast<unsigned char>(text[space + 1])) &&
-                                text.find('(') > space;
+    const bool is_declaration = space != std::string::npos &&
+                                std::isalnum(static_cast<unsigned char>(text[space + 1])) && text.find('(') > space;
     const bool is_branch = text.rfind("if ", 0) == 0;
     return is_declaration || is_branch || text.find_first_of("{};\n") != std::string::npos ? std::string() : text;
 }
@@ -140,8 +140,7 @@ void Emitter::emit_loop(const Statement& s) {
         is_short &= !single.empty();
         last += (last.empty() ? "" : ", ") + single;
     }
-    const std::optional<PathCounter> counter =
-        m_function ? std::nullopt : find_path_counter(m_program, m_loop, s);
+    const std::optional<PathCounter> counter = m_function ? std::nullopt : find_path_counter(m_program, m_loop, s);
     if (counter)
         m_path_counters.push_back(*counter);
     if (is_short)
@@ -150,7 +149,7 @@ void Emitter::emit_loop(const Statement& s) {
         emit_long_loop(s);
     if (counter)
         m_path_counters.pop_back();
-    const bool is_inside_loop = m_loops.size() > 1; // the photon loop is the first
+    const bool is_inside_loop = m_loops.size() > 1;       // the photon loop is the first
     if (!counter || !counter->is_short || is_inside_loop) // a few turns are shared after every photon
         write_line("share_turns();");
 }
@@ -224,10 +223,7 @@ void Emitter::emit_function(const Function& function, const Expression& call) {
     if (m_function_names.contains(call.function))
         return;
     const auto name_type = [](Type type) {
-        return type == Type::none      ? "void"
-               : type == Type::integer ? "int"
-               : type == Type::list    ? "ivec2"
-                                       : "float";
+        return type == Type::none ? "void" : type == Type::integer ? "int" : type == Type::list ? "ivec2" : "float";
     };
     std::string parameters;
     for (const std::uint32_t parameter : function.parameters)
@@ -257,8 +253,8 @@ void Emitter::emit_function(const Function& function, const Expression& call) {
 
     std::string declarations;
     for (const std::uint32_t own : own_variables)
-        declarations += declare_variable(
-            own, std::find(function.parameters.begin(), function.parameters.end(), own) != function.parameters.end());
+        declarations += declare_variable(own, std::find(function.parameters.begin(), function.parameters.end(), own) !=
+                                                  function.parameters.end());
     m_functions += std::string(name_type(function.result)) + " " + name + "(" + parameters + ") {\n" + declarations +
                    block.text + "}\n\n";
 }

@@ -25,7 +25,9 @@ bool is_name(const std::string& text) {
 
 } // namespace
 
-void Emitter::write_line(const std::string& text) { m_block.text += std::string(4 * m_indent, ' ') + text + '\n'; }
+void Emitter::write_line(const std::string& text) {
+    m_block.text += std::string(4 * m_indent, ' ') + text + '\n';
+}
 
 void Emitter::open(const std::string& head) {
     write_line(head + " {");
@@ -114,6 +116,8 @@ std::string Emitter::find_fuel_site(const Statement& loop) {
     return std::to_string(at) + "u";
 }
 
-void Emitter::use(const std::string& library) { m_libraries.insert(library); }
+void Emitter::use(const std::string& library) {
+    m_libraries.insert(library);
+}
 
 } // namespace photonloupe::script

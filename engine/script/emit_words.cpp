@@ -8,7 +8,9 @@
 namespace photonloupe::script {
 namespace {
 
-bool is_choice(Role role) { return role == Role::least || role == Role::greatest; }
+bool is_choice(Role role) {
+    return role == Role::least || role == Role::greatest;
+}
 
 } // namespace
 

@@ -70,7 +70,8 @@ private:
     void write_comment(Span span);
     void open(const std::string& head);
     void close(const std::string& tail = "");
-    template <class Write> Block capture(const Write& write) {
+    template <class Write>
+    Block capture(const Write& write) {
         Block block;
         std::swap(block, m_block);
         write();
@@ -166,24 +167,24 @@ private:
     std::uint32_t m_indent = 1;
     std::uint32_t m_last_line = 0; // of the script, whose text was written as a comment
     std::uint32_t m_temporaries = 0;
-    std::set<std::string> m_taken;                        // names
-    std::map<std::uint32_t, std::string> m_names;         // of variables
-    std::map<std::uint32_t, std::string> m_set_flags;     // of variables that may be unset
-    std::map<std::uint32_t, std::string> m_photon_names;  // of least and greatest scalars: who gave them
-    std::map<std::uint32_t, std::uint32_t> m_word_of;     // uniform variables
+    std::set<std::string> m_taken;                       // names
+    std::map<std::uint32_t, std::string> m_names;        // of variables
+    std::map<std::uint32_t, std::string> m_set_flags;    // of variables that may be unset
+    std::map<std::uint32_t, std::string> m_photon_names; // of least and greatest scalars: who gave them
+    std::map<std::uint32_t, std::uint32_t> m_word_of;    // uniform variables
     std::map<std::uint32_t, const LaneSlots*> m_lane_of;
     std::map<std::uint32_t, std::string> m_function_names;
-    std::set<std::uint32_t> m_function_variables;         // declared inside GLSL functions
-    std::set<std::string> m_libraries;                    // of shaders/script/
-    std::string m_functions;                              // GLSL of the script's functions so far
-    const Function* m_function = nullptr;                 // being emitted
+    std::set<std::uint32_t> m_function_variables; // declared inside GLSL functions
+    std::set<std::string> m_libraries;            // of shaders/script/
+    std::string m_functions;                      // GLSL of the script's functions so far
+    const Function* m_function = nullptr;         // being emitted
     struct LoopContext {
         bool is_photon_loop = false;
         std::function<void()> before_next; // what `continue` must do first
     };
     std::vector<LoopContext> m_loops;
     std::vector<PathCounter> m_path_counters; // of the loops that are being emitted
-    std::set<int> m_dimensions; // of parameters that are set by a known number
+    std::set<int> m_dimensions;               // of parameters that are set by a known number
     bool m_has_computed_dimensions = false;
     bool m_has_loops = false, m_has_element_reductions = false, m_uses_own_path = false;
     std::set<std::pair<std::uint32_t, std::string>> m_zeros; // arrays of zeros that declarations copy: size, type

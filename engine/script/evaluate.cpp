@@ -12,7 +12,9 @@ namespace {
 
 constexpr float NOT_A_NUMBER = std::numeric_limits<float>::quiet_NaN();
 
-Number nothing(Type type) { return type == Type::integer ? make_integer(0) : make_real(NOT_A_NUMBER); }
+Number nothing(Type type) {
+    return type == Type::integer ? make_integer(0) : make_real(NOT_A_NUMBER);
+}
 
 } // namespace
 

@@ -14,8 +14,7 @@ namespace {
 // Turns and photons between two looks at the clock and at who may want to stop: a fraction of 0.2 s with long bodies.
 constexpr std::uint64_t STEPS_PER_LOOK = 4096;
 
-void collect_locals(const Program& program, const std::vector<Statement>& statements,
-                    std::set<std::uint32_t>& locals) {
+void collect_locals(const Program& program, const std::vector<Statement>& statements, std::set<std::uint32_t>& locals) {
     for (const Statement& statement : statements) {
         if (statement.kind == Statement::Kind::declare)
             locals.insert(statement.variable);

@@ -107,11 +107,10 @@ void explain_names(const LoopFacts& facts, PhotonLoop& loop) {
     if (const auto found = facts.accesses.names.find(photon); found != facts.accesses.names.end()) {
         const NameAccesses& uses = found->second;
         if (!uses.writes.empty() || !uses.steps.empty())
-            loop.reasons.push_back({codes::LEAVES_LOOP, Severity::warning,
-                                    uses.writes.empty() ? uses.steps[0].span : uses.writes[0],
-                                    SERIAL + ("its variable '" + facts.program.variables[photon].name) +
-                                        "' is assigned in it",
-                                    "use another variable; 'continue' goes on to the next photon"});
+            loop.reasons.push_back(
+                {codes::LEAVES_LOOP, Severity::warning, uses.writes.empty() ? uses.steps[0].span : uses.writes[0],
+                 SERIAL + ("its variable '" + facts.program.variables[photon].name) + "' is assigned in it",
+                 "use another variable; 'continue' goes on to the next photon"});
     }
     for (const Span span : facts.accesses.leaves)
         loop.reasons.push_back({codes::LEAVES_LOOP, Severity::warning, span, SERIAL + "'break' ends it early",
@@ -122,7 +121,7 @@ void explain_names(const LoopFacts& facts, PhotonLoop& loop) {
         const NameAccesses& uses = facts.accesses.names.at(variable);
         const Variable& declared = facts.program.variables[variable];
         const std::string name = "'" + declared.name + "'";
-        loop.reasons.push_back(!uses.steps.empty()        ? explain_step(facts, name, uses)
+        loop.reasons.push_back(!uses.steps.empty()       ? explain_step(facts, name, uses)
                                : declared.array_size > 0 ? explain_array(name, uses)
                                                          : explain_scalar(facts, variable, name, uses));
     }

@@ -14,8 +14,8 @@ namespace {
 
 using Kind = Expression::Kind;
 
-constexpr int MAX_DEPTH = 64;        // of variables given by variables given by …
-constexpr double MAX_VALUE = 1e9;    // far from where 32-bit integers wrap
+constexpr int MAX_DEPTH = 64;     // of variables given by variables given by …
+constexpr double MAX_VALUE = 1e9; // far from where 32-bit integers wrap
 constexpr Interval ANYWHERE{-HUGE_VAL, HUGE_VAL};
 
 std::optional<Interval> accept(Interval interval) {
@@ -73,8 +73,7 @@ std::optional<Interval> IntervalFinder::find_binary(const Expression& expression
     case Operator::subtract:
         return accept({a->low - b->high, a->high - b->low});
     case Operator::multiply: {
-        const auto [low, high] =
-            std::minmax({a->low * b->low, a->low * b->high, a->high * b->low, a->high * b->high});
+        const auto [low, high] = std::minmax({a->low * b->low, a->low * b->high, a->high * b->low, a->high * b->high});
         return accept({low, high});
     }
     case Operator::divide:

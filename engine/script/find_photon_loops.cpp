@@ -19,8 +19,8 @@ bool is_integer(const Expression& expression, std::int32_t value) {
 
 // Also of a variable of reals, where every number has become one.
 bool is_number(const Expression& expression, std::int32_t value) {
-    return is_integer(expression, value) || (expression.kind == Kind::number && expression.type == Type::real &&
-                                             expression.real == float(value));
+    return is_integer(expression, value) ||
+           (expression.kind == Kind::number && expression.type == Type::real && expression.real == float(value));
 }
 
 const Expression& skip_conversion(const Expression& expression) {

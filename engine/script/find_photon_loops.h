@@ -11,5 +11,4 @@ namespace photonloupe::script {
 // loops, unless they stand inside another (then they stay ordinary loops). Reports declarePhotonParameter inside one.
 void find_photon_loops(Draft& draft, Diagnostics& diagnostics);
 
-
 } // namespace photonloupe::script

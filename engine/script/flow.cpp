@@ -18,8 +18,8 @@ bool may_leave(const std::vector<Statement>& body) {
 }
 
 bool is_always_true(const std::optional<Expression>& condition) {
-    return !condition || (condition->kind == Expression::Kind::number && condition->type == Type::integer &&
-                          condition->integer != 0);
+    return !condition ||
+           (condition->kind == Expression::Kind::number && condition->type == Type::integer && condition->integer != 0);
 }
 
 bool may_go_on(const Statement& statement) {

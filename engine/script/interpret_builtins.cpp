@@ -90,8 +90,8 @@ Number Interpreter::call_pure(const Expression& expression) {
     }
     std::array<float, LONGEST_SIGNATURE> reals{};
     for (std::size_t i = 0; i < count; ++i)
-        reals[i] = expression.operands[i].type == Type::integer ? static_cast<float>(values[i].integer)
-                                                                : values[i].real;
+        reals[i] =
+            expression.operands[i].type == Type::integer ? static_cast<float>(values[i].integer) : values[i].real;
     if (builtin.id == BuiltinId::random) {
         const auto item = [&](std::size_t i) {
             return expression.operands[i].type == Type::integer

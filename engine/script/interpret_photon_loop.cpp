@@ -78,8 +78,8 @@ std::vector<std::uint32_t> Interpreter::combine_block(const std::vector<Lane>& l
             for (std::size_t j = 0; j < lanes[lane].photons[i].size(); ++j)
                 words[(first + size + j) * width + lane] = lanes[lane].photons[i][j];
         }
-        for (const auto& [first, moments] : {std::pair{m_layout.pca_2d, &lanes[lane].pca_2d},
-                                             std::pair{m_layout.pca_3d, &lanes[lane].pca_3d}}) {
+        for (const auto& [first, moments] :
+             {std::pair{m_layout.pca_2d, &lanes[lane].pca_2d}, std::pair{m_layout.pca_3d, &lanes[lane].pca_3d}}) {
             std::uint32_t packed[sizeof(Moments) / sizeof(std::uint32_t)];
             store_moments(*moments, packed);
             for (std::size_t j = 0; first && j < std::size(packed); ++j)

@@ -45,8 +45,7 @@ Number Interpreter::read_path(const Expression& expression) {
             evaluate(expression.operands[i]);
         return nothing;
     }
-    const std::size_t place =
-        find_place(expression.operands[1], static_cast<std::size_t>(count), Fault::vertex_index);
+    const std::size_t place = find_place(expression.operands[1], static_cast<std::size_t>(count), Fault::vertex_index);
     const std::size_t vertex = static_cast<std::size_t>(first) + place;
     const bool has_axis = expression.operands.size() > 2;
     const std::size_t axis = has_axis ? find_place(expression.operands[2], AXES, Fault::axis_index) : 0;
@@ -86,8 +85,7 @@ Number Interpreter::read_parameter(const Expression& expression) {
 
 // Its label, else the constant that names its dimension (GAMMA), else p3; never a name that another one has.
 std::string Interpreter::name_parameter(std::size_t dimension, const Expression& written, std::string label) const {
-    if (label.empty() && written.kind == Expression::Kind::variable &&
-        m_program.variables[written.variable].constant)
+    if (label.empty() && written.kind == Expression::Kind::variable && m_program.variables[written.variable].constant)
         label = m_program.variables[written.variable].name;
     const std::vector<DeclaredParameter>& declared = m_outputs.columns.declared();
     for (std::size_t i = 0; i < declared.size(); ++i)
@@ -104,8 +102,8 @@ void Interpreter::declare_parameter(const Expression& expression) {
     parameter.high = evaluate_real(operands[2]);
     parameter.name = operands.size() > 3 ? operands[3].label : std::string();
     parameter.is_periodic = operands.size() > 4 && evaluate_truth(operands[4]);
-    if (dimension < FIRST_DIMENSION || dimension > LAST_DIMENSION ||
-        !(parameter.low < parameter.high) || !std::isfinite(parameter.high - parameter.low)) {
+    if (dimension < FIRST_DIMENSION || dimension > LAST_DIMENSION || !(parameter.low < parameter.high) ||
+        !std::isfinite(parameter.high - parameter.low)) {
         fault(Fault::declaration, expression);
         return;
     }

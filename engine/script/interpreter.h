@@ -11,8 +11,8 @@
 
 #include "core/progress.h"
 #include "script/host_photons.h"
-#include "script/plan.h"
 #include "script/lanes.h"
+#include "script/plan.h"
 #include "script/run_outputs.h"
 #include "script/run_settings.h"
 
@@ -79,8 +79,8 @@ private:
 
     // One lane's running values in a photon loop, see reductions.h.
     struct Lane {
-        std::vector<std::vector<Number>> values;          // by reduced variable
-        std::vector<std::vector<std::uint32_t>> photons;  // of least and greatest: who gave it
+        std::vector<std::vector<Number>> values;         // by reduced variable
+        std::vector<std::vector<std::uint32_t>> photons; // of least and greatest: who gave it
         Moments pca_2d, pca_3d;
     };
 
@@ -151,14 +151,14 @@ private:
     std::map<std::uint32_t, Number> m_exposed;
     Iteration m_iteration;
     std::vector<std::vector<std::uint32_t>> m_function_locals; // variables each function's call begins without
-    LaneLayout m_layout;            // of the present loop
-    std::vector<bool> m_is_reduced; // by variable
+    LaneLayout m_layout;                                       // of the present loop
+    std::vector<bool> m_is_reduced;                            // by variable
     std::vector<std::vector<std::uint32_t>> m_choice_photons; // by variable: who gave a least or greatest, in this lane
     std::uint64_t m_fuel = 0;
-    std::uint64_t m_steps = 0; // turns of loops and photons
-    double m_fraction = 0;     // of the present loop's photons
+    std::uint64_t m_steps = 0;                   // turns of loops and photons
+    double m_fraction = 0;                       // of the present loop's photons
     const Expression* m_last_declared = nullptr; // the call that left a gap, if there is one at the end
-    Number m_given{};      // what `return` brings
+    Number m_given{};                            // what `return` brings
     bool m_has_given = false;
     std::vector<std::int32_t> m_list; // of a list that is used where it is made
     std::chrono::steady_clock::time_point m_loop_start;

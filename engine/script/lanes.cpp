@@ -13,11 +13,17 @@ namespace {
 
 static_assert(sizeof(Moments) == sizeof(std::uint32_t) * shared::MOMENTS_WORDS);
 
-bool is_choice(Role role) { return role == Role::least || role == Role::greatest; }
+bool is_choice(Role role) {
+    return role == Role::least || role == Role::greatest;
+}
 
-Number to_number(std::uint32_t word) { return std::bit_cast<Number>(word); }
+Number to_number(std::uint32_t word) {
+    return std::bit_cast<Number>(word);
+}
 
-std::uint32_t to_word(Number number) { return std::bit_cast<std::uint32_t>(number); }
+std::uint32_t to_word(Number number) {
+    return std::bit_cast<std::uint32_t>(number);
+}
 
 const ReducedSlots* find_payloads_next(const LaneLayout& layout, std::uint32_t choice, const ReducedSlots* after) {
     for (const ReducedSlots& slots : layout.variables)
@@ -34,8 +40,8 @@ struct Pair {
 
     void combine(const ReducedSlots& slots) const {
         for (std::size_t i = slots.first; i < slots.first + slots.size; ++i)
-            mine[i * stride] = to_word(script::combine(slots.role, slots.type, to_number(mine[i * stride]),
-                                                       to_number(other[i * stride])));
+            mine[i * stride] = to_word(
+                script::combine(slots.role, slots.type, to_number(mine[i * stride]), to_number(other[i * stride])));
     }
 
     void choose(const LaneLayout& layout, const ReducedSlots& slots) const {
@@ -105,7 +111,8 @@ LaneLayout lay_out_lanes(const Program& program, const PhotonLoop& loop) {
         if (use.role == Role::local || use.role == Role::uniform || use.role == Role::carried)
             continue;
         const Variable& described = program.variables[variable];
-        ReducedSlots slots{variable, use.role, described.type, layout.slots, std::max(described.array_size, 1u), use.of};
+        ReducedSlots slots{variable, use.role, described.type, layout.slots, std::max(described.array_size, 1u),
+                           use.of};
         layout.slots += slots.size * (is_choice(use.role) ? 2 : 1);
         layout.variables.push_back(slots);
     }

@@ -23,7 +23,7 @@ struct ReducedSlots {
 };
 
 struct LaneLayout {
-    std::vector<ReducedSlots> variables; // a payload anywhere
+    std::vector<ReducedSlots> variables;         // a payload anywhere
     std::optional<std::uint32_t> pca_2d, pca_3d; // first of MOMENTS_WORDS slots
     std::uint32_t slots = 0;
 };

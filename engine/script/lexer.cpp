@@ -11,7 +11,7 @@
 namespace photonloupe::script {
 namespace {
 
-constexpr std::string_view KEYWORDS[] = {"if",    "else",     "for",    "while", "do",  "break",
+constexpr std::string_view KEYWORDS[] = {"if",       "else",   "for",   "while", "do",       "break",
                                          "continue", "return", "float", "int",   "function", "expose"};
 
 // Longest first, so that the first match is the right one; C's others are read whole to be refused by name.
@@ -21,15 +21,51 @@ struct Symbol {
 };
 constexpr TokenKind UNSUPPORTED = TokenKind::unsupported;
 constexpr Symbol SYMBOLS[] = {
-    {"<<=", UNSUPPORTED}, {">>=", UNSUPPORTED}, {"<<", UNSUPPORTED}, {">>", UNSUPPORTED}, {"->", UNSUPPORTED},
-    {"&=", UNSUPPORTED},  {"|=", UNSUPPORTED},  {"^=", UNSUPPORTED}, {"++"},              {"--"},
-    {"+="},               {"-="},               {"*="},              {"/="},              {"%="},
-    {"=="},               {"!="},               {"<="},              {">="},              {"&&"},
-    {"||"},               {"&", UNSUPPORTED},   {"|", UNSUPPORTED},  {"^", UNSUPPORTED},  {"~", UNSUPPORTED},
-    {".", UNSUPPORTED},   {"+"},                {"-"},               {"*"},               {"/"},
-    {"%"},                {"="},                {"!"},               {"<"},               {">"},
-    {"?"},                {":"},                {";"},               {","},               {"("},
-    {")"},                {"{"},                {"}"},               {"["},               {"]"},
+    {"<<=", UNSUPPORTED},
+    {">>=", UNSUPPORTED},
+    {"<<", UNSUPPORTED},
+    {">>", UNSUPPORTED},
+    {"->", UNSUPPORTED},
+    {"&=", UNSUPPORTED},
+    {"|=", UNSUPPORTED},
+    {"^=", UNSUPPORTED},
+    {"++"},
+    {"--"},
+    {"+="},
+    {"-="},
+    {"*="},
+    {"/="},
+    {"%="},
+    {"=="},
+    {"!="},
+    {"<="},
+    {">="},
+    {"&&"},
+    {"||"},
+    {"&", UNSUPPORTED},
+    {"|", UNSUPPORTED},
+    {"^", UNSUPPORTED},
+    {"~", UNSUPPORTED},
+    {".", UNSUPPORTED},
+    {"+"},
+    {"-"},
+    {"*"},
+    {"/"},
+    {"%"},
+    {"="},
+    {"!"},
+    {"<"},
+    {">"},
+    {"?"},
+    {":"},
+    {";"},
+    {","},
+    {"("},
+    {")"},
+    {"{"},
+    {"}"},
+    {"["},
+    {"]"},
 };
 
 bool is_letter(char c) {

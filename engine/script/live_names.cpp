@@ -9,7 +9,9 @@
 namespace photonloupe::script {
 namespace {
 
-void step_back(NameSet& live, const FlowAccess& access) { live[access.name] = access.kind == FlowAccess::Kind::read; }
+void step_back(NameSet& live, const FlowAccess& access) {
+    live[access.name] = access.kind == FlowAccess::Kind::read;
+}
 
 NameSet join_next(const Flow& flow, const std::vector<NameSet>& at_start, std::uint32_t first, std::uint32_t block) {
     NameSet live(flow.names.count());

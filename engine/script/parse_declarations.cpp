@@ -97,9 +97,7 @@ SyntaxFunction Parser::parse_function() {
     SyntaxFunction function;
     function.name = name.spelling;
     function.span = name.span;
-    function.result = kind.is("int")     ? WrittenType::integer
-                      : kind.is("float") ? WrittenType::real
-                                         : WrittenType::none;
+    function.result = kind.is("int") ? WrittenType::integer : kind.is("float") ? WrittenType::real : WrittenType::none;
     expect("(", " after the function's name");
     if (!peek().is(")")) {
         do {

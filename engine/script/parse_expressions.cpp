@@ -17,10 +17,10 @@ struct BinaryOperator {
     int binding;
 };
 constexpr BinaryOperator BINARY[] = {
-    {"||", Operator::logical_or, 1},   {"&&", Operator::logical_and, 2},   {"==", Operator::equal, 3},
-    {"!=", Operator::not_equal, 3},    {"<", Operator::less, 4},           {"<=", Operator::less_equal, 4},
-    {">", Operator::greater, 4},       {">=", Operator::greater_equal, 4}, {"+", Operator::add, 5},
-    {"-", Operator::subtract, 5},      {"*", Operator::multiply, 6},       {"/", Operator::divide, 6},
+    {"||", Operator::logical_or, 1}, {"&&", Operator::logical_and, 2},   {"==", Operator::equal, 3},
+    {"!=", Operator::not_equal, 3},  {"<", Operator::less, 4},           {"<=", Operator::less_equal, 4},
+    {">", Operator::greater, 4},     {">=", Operator::greater_equal, 4}, {"+", Operator::add, 5},
+    {"-", Operator::subtract, 5},    {"*", Operator::multiply, 6},       {"/", Operator::divide, 6},
     {"%", Operator::modulo, 6},
 };
 
@@ -34,7 +34,8 @@ constexpr AssignmentOperator ASSIGNMENT[] = {
 };
 
 // The table's row for a token, or null.
-template <class Row, std::size_t N> const Row* find_operator(const Row (&table)[N], const Token& token) {
+template <class Row, std::size_t N>
+const Row* find_operator(const Row (&table)[N], const Token& token) {
     if (token.kind != TokenKind::symbol)
         return nullptr;
     const auto found = std::find_if(std::begin(table), std::end(table),
@@ -136,9 +137,7 @@ SyntaxExpression Parser::parse_unary() {
     std::vector<SyntaxExpression> operands;
     operands.push_back(std::move(operand));
     SyntaxExpression expression = join(Kind::unary, span, std::move(operands));
-    expression.operation = sign.is("-")   ? Operator::negate
-                           : sign.is("!") ? Operator::logical_not
-                                          : Operator::none;
+    expression.operation = sign.is("-") ? Operator::negate : sign.is("!") ? Operator::logical_not : Operator::none;
     return expression;
 }
 

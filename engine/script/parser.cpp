@@ -132,7 +132,7 @@ void Parser::skip_statement() {
 
 // Behind the ')' that closes the head of a loop or branch, so that its body can still be read.
 void Parser::skip_to_parenthesis() {
-    for (int depth = 1; peek().kind != TokenKind::end && !peek().is("{") && !peek().is("}"); ) {
+    for (int depth = 1; peek().kind != TokenKind::end && !peek().is("{") && !peek().is("}");) {
         if (peek().is("("))
             ++depth;
         const bool is_closing = peek().is(")");

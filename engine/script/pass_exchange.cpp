@@ -15,7 +15,9 @@ constexpr std::uint32_t WORD_BITS = 32;
 constexpr std::uint32_t DEFAULT_BINS = 64;
 constexpr std::uint32_t MOST_BINS = 4096;
 
-std::uint32_t to_word(float value) { return std::bit_cast<std::uint32_t>(value); }
+std::uint32_t to_word(float value) {
+    return std::bit_cast<std::uint32_t>(value);
+}
 
 float to_real(const Expression& expression, Number value) {
     return expression.type == Type::integer ? static_cast<float>(value.integer) : value.real;
@@ -32,9 +34,9 @@ void store_decomposition(const Decomposition& found, std::span<std::uint32_t> wo
 }
 
 std::string describe_space(NeighborQuery::Space space) {
-    return space == NeighborQuery::Space::world ? "getKNN" : space == NeighborQuery::Space::parameter
-                                                                 ? "getParameterKNN"
-                                                                 : "getConstrainedKNN";
+    return space == NeighborQuery::Space::world       ? "getKNN"
+           : space == NeighborQuery::Space::parameter ? "getParameterKNN"
+                                                      : "getConstrainedKNN";
 }
 
 } // namespace
@@ -65,8 +67,8 @@ void PassRunner::fill_uniforms(Work& work) const {
         float bins = DEFAULT_BINS;
         if (histogram.bins)
             bins = to_real(*histogram.bins, work.interpreter.evaluate_uniform(*histogram.bins));
-        const bool is_valid = low < high && std::isfinite(high - low) && bins >= 1 && bins <= MOST_BINS &&
-                              bins == std::trunc(bins);
+        const bool is_valid =
+            low < high && std::isfinite(high - low) && bins >= 1 && bins <= MOST_BINS && bins == std::trunc(bins);
         const std::uint32_t count = is_valid ? static_cast<std::uint32_t>(bins) : 0u;
         const std::uint32_t described[] = {to_word(low), to_word(high), count, next};
         std::ranges::copy(described, words.begin() + histogram.first_word);
@@ -100,18 +102,21 @@ void PassRunner::ask_neighbors(Work& work, std::uint32_t first_photon, std::uint
         if (query.query->beta)
             beta = to_real(*query.query->beta, work.interpreter.evaluate_uniform(*query.query->beta));
         const bool is_valid = k > 0 && beta >= 0; // else the pass says so
-        const std::uint32_t described[] = {static_cast<std::uint32_t>(next), is_valid ? k : 0u, first, is_valid ? count : 0u};
+        const std::uint32_t described[] = {static_cast<std::uint32_t>(next), is_valid ? k : 0u, first,
+                                           is_valid ? count : 0u};
         std::ranges::copy(described, work.uniforms.begin() + query.first_word);
         if (!is_valid || count == 0)
             continue;
         std::vector<std::uint32_t> photons(count);
         std::iota(photons.begin(), photons.end(), first);
-        Rows& rows = parts.emplace_back(Rows{m_find_rows(query.query->space, photons, k, beta), std::uint64_t{count} * k});
+        Rows& rows =
+            parts.emplace_back(Rows{m_find_rows(query.query->space, photons, k, beta), std::uint64_t{count} * k});
         next += rows.words;
         if (next > INT32_MAX)
             throw MemoryError(describe_space(query.query->space) + " of photons other than the loop's needs " +
-                              std::to_string(next) + " ids, more than 2^31; ask for fewer neighbours, or for those of "
-                                                     "the loop's own photon");
+                              std::to_string(next) +
+                              " ids, more than 2^31; ask for fewer neighbours, or for those of "
+                              "the loop's own photon");
     }
     std::vector<std::int32_t> lists; // of uniform variables
     for (const UniformSlot& slot : work.pass.uniforms) {

@@ -26,6 +26,8 @@ constexpr PassLibrary LIBRARIES[] = {
 
 } // namespace
 
-std::span<const PassLibrary> list_pass_libraries() { return LIBRARIES; }
+std::span<const PassLibrary> list_pass_libraries() {
+    return LIBRARIES;
+}
 
 } // namespace photonloupe::script

@@ -20,7 +20,8 @@ constexpr std::uint64_t MOST_ROW_WORDS = 1ull << 26;
 constexpr std::uint32_t MOST_FREE_ROUNDS = 16;
 constexpr std::uint32_t WORD_BITS = 32;
 
-template <class Words> gpu::Buffer make_words(gpu::Device& device, const Words& words, const char* purpose) {
+template <class Words>
+gpu::Buffer make_words(gpu::Device& device, const Words& words, const char* purpose) {
     return words.empty() ? gpu::Buffer(device, sizeof(std::uint32_t), purpose)
                          : gpu::make_buffer(device, words, purpose);
 }
@@ -42,7 +43,9 @@ LaneLayout take_layout(const Program& program, const EmittedPass& pass) {
 
 } // namespace
 
-gpu::KernelSource name_kernel(const EmittedPass& pass) { return {"script", REDUCTION_LANES, {}, {}, pass.glsl}; }
+gpu::KernelSource name_kernel(const EmittedPass& pass) {
+    return {"script", REDUCTION_LANES, {}, {}, pass.glsl};
+}
 
 PassRunner::PassRunner(gpu::Device& device, const PhotonMap& photons, const Program& program, const Plan& plan,
                        const std::vector<EmittedPass>& passes, RunOutputs& outputs, const RunSettings& settings,
@@ -175,8 +178,8 @@ std::uint32_t PassRunner::measure_rounds(Work& work) const {
     return std::clamp(COMFORTABLE_TURNS / turns, 1u, most);
 }
 
-// Between dispatches. Sets report.stopped, has_late_photons. Late photons are the interpreter's as soon as they are many:
-// a script that never ends is then stopped early.
+// Between dispatches. Sets report.stopped, has_late_photons. Late photons are the interpreter's as soon as they are
+// many: a script that never ends is then stopped early.
 void PassRunner::check_limits(Work& work) {
     work.has_late_photons = work.status_words.read<std::uint32_t>(1)[0] != 0;
     if (work.has_late_photons && work.rounds == 1 && can_hand_over(work) &&
@@ -255,8 +258,8 @@ void PassRunner::run_blocks(Work& work) {
             const std::size_t size = std::size_t{work.pass.slot_count} * REDUCTION_LANES;
             const std::vector<std::uint32_t> words = work.lane_words.read<std::uint32_t>(count * size);
             for (std::uint32_t block = 0; block < count; ++block)
-                work.blocks.push_back(combine_lanes(work.layout, std::span(words).subspan(block * size, size),
-                                                    REDUCTION_LANES));
+                work.blocks.push_back(
+                    combine_lanes(work.layout, std::span(words).subspan(block * size, size), REDUCTION_LANES));
         }
     }
 }

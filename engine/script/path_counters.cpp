@@ -65,7 +65,8 @@ bool counts_up(const Statement& statement, std::uint32_t variable) {
         return false;
     const Expression& step = statement.last[0];
     return step.kind == Kind::assignment && step.variable == variable && step.operation == Operator::add &&
-           step.operands[0].kind == Kind::number && step.operands[0].type == Type::integer && step.operands[0].integer == 1;
+           step.operands[0].kind == Kind::number && step.operands[0].type == Type::integer &&
+           step.operands[0].integer == 1;
 }
 
 // Their turns would have to be shared among a subgroup's lanes.

@@ -16,7 +16,8 @@ struct PathCounter {
 };
 
 // for (j = LOW; j < getNumPathVertices(i) + BEYOND; j++), also with a variable that holds the number, or <=.
-std::optional<PathCounter> find_path_counter(const Program& program, const PhotonLoop& loop, const Statement& statement);
+std::optional<PathCounter> find_path_counter(const Program& program, const PhotonLoop& loop,
+                                             const Statement& statement);
 
 // Whether the index is the counter, or the counter plus a constant, and names a vertex in every turn.
 bool is_on_path(const Program& program, const PhotonLoop& loop, const PathCounter& counter, const Expression& index);

@@ -14,15 +14,15 @@ namespace photonloupe::script {
 
 // How a loop body uses a script variable.
 enum class Role : std::uint8_t {
-    local,     // definitely assigned before each use in an iteration, not read after the loop
-    uniform,   // not written in the body
-    sum,       // s += e, s -= e, s++, s--, s = s + e
-    minimum,   // s = min(s, e): any NaN gives NaN, -0 < +0
+    local,   // definitely assigned before each use in an iteration, not read after the loop
+    uniform, // not written in the body
+    sum,     // s += e, s -= e, s++, s--, s = s + e
+    minimum, // s = min(s, e): any NaN gives NaN, -0 < +0
     maximum,
-    least,     // if (e < s) { s = e; payload = …; }: NaN never wins, ties to the lowest photon id
+    least, // if (e < s) { s = e; payload = …; }: NaN never wins, ties to the lowest photon id
     greatest,
-    payload,   // assigned together with a least or greatest; `of` is that variable
-    carried,   // anything else: the loop runs serially
+    payload, // assigned together with a least or greatest; `of` is that variable
+    carried, // anything else: the loop runs serially
 };
 
 struct VariableUse {
@@ -40,13 +40,13 @@ struct NeighborQuery {
     Space space = Space::world;
     // k and β in terms that hold before the loop. Absent: the default k; no β.
     std::optional<Expression> count, beta;
-    bool is_at_loop_photon = false;   // then chunks suffice; else rows of all photons are needed
+    bool is_at_loop_photon = false; // then chunks suffice; else rows of all photons are needed
 };
 
 struct PhotonLoop {
     const Statement* statement = nullptr;
     bool is_parallel = true;
-    std::vector<Diagnostic> reasons;   // why it is serial: warnings that name the variable or call, and the rewrite
+    std::vector<Diagnostic> reasons; // why it is serial: warnings that name the variable or call, and the rewrite
     std::map<std::uint32_t, VariableUse> variables; // every variable the body (functions too) uses
     // The if statements recognised as arg-min or arg-max, by their address, with the variable they decide.
     std::map<const Statement*, std::uint32_t> choices;
@@ -54,13 +54,13 @@ struct PhotonLoop {
     AccumulatorUse pca_3d = AccumulatorUse::unused;
     AccumulatorUse decomposition = AccumulatorUse::unused;
     std::vector<NeighborQuery> queries;
-    std::uint32_t columns = 0;         // read; Columns
+    std::uint32_t columns = 0; // read; Columns
     // Functions' parameters that are never assigned, with what they are given: they count as that.
     std::map<std::uint32_t, const Expression*> given;
     // Variables that may be read while unset, in the body; reading them there is checked.
     std::set<std::uint32_t> unset_reads;
     bool sets_parameters = false, sets_colors = false, reads_own_parameters = false, prints = false;
-    bool needs_fuel = false;           // holds a loop that is not bounded
+    bool needs_fuel = false; // holds a loop that is not bounded
     bool has_reductions() const;
 };
 

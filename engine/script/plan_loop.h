@@ -11,8 +11,8 @@ struct LoopFacts {
     const Statement& statement;
     FlowNames names;
     BodyAccesses accesses;
-    NameSet enters;  // may be read in an iteration before it is assigned there
-    NameSet leaves;  // may be read after the loop
+    NameSet enters; // may be read in an iteration before it is assigned there
+    NameSet leaves; // may be read after the loop
 
     bool is_local(std::uint32_t name) const { return !enters[name] && !leaves[name]; }
     std::uint32_t find_line(Span span) const { return program.source.find_place(span.begin).line; }

@@ -18,7 +18,9 @@ Number to_number(const Expression& expression, double value) {
     return number;
 }
 
-double to_double(Type type, Number number) { return type == Type::integer ? number.integer : double(number.real); }
+double to_double(Type type, Number number) {
+    return type == Type::integer ? number.integer : double(number.real);
+}
 
 // A variable that the loop does not write: others hold what they hold, or nothing yet.
 std::optional<double> find_constant_variable(const Program& program, const PhotonLoop& loop, std::uint32_t index) {
@@ -85,8 +87,7 @@ const Expression& resolve_given(const PhotonLoop& loop, const Expression& expres
             e = &e->operands[0];
             continue;
         }
-        const auto found =
-            e->kind == Expression::Kind::variable ? loop.given.find(e->variable) : loop.given.end();
+        const auto found = e->kind == Expression::Kind::variable ? loop.given.find(e->variable) : loop.given.end();
         if (found == loop.given.end())
             return *e;
         e = found->second;

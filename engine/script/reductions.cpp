@@ -14,13 +14,16 @@ namespace {
 constexpr float QUIET_NAN = std::numeric_limits<float>::quiet_NaN();
 constexpr float INF = std::numeric_limits<float>::infinity();
 
-bool is_minus_zero(float x) { return std::bit_cast<std::uint32_t>(x) == 0x80000000u; }
+bool is_minus_zero(float x) {
+    return std::bit_cast<std::uint32_t>(x) == 0x80000000u;
+}
 
 std::int32_t add_wrapping(std::int32_t a, std::int32_t b) {
     return std::bit_cast<std::int32_t>(std::bit_cast<std::uint32_t>(a) + std::bit_cast<std::uint32_t>(b));
 }
 
-template <class T> bool beats(Role role, T challenger, T holder) {
+template <class T>
+bool beats(Role role, T challenger, T holder) {
     return role == Role::least ? challenger < holder : challenger > holder;
 }
 

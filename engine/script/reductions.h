@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // How sums, least and greatest values over photons are combined: one order, for passes and for the interpreter.
 //
-// Photons are taken in blocks of 4,096 consecutive ids. In a block, lane l of 64 takes ids l, l + 64, l + 128 … in order,
-// each adding to the lane's own value (which starts at the identity). The 64 lanes are combined pairwise: 0 with 1, 2 with
-// 3 …, then those results pairwise, and so on; the blocks likewise (an odd one out moves up unchanged). At the end the
-// value the variable had before the loop is combined with the total: before + total, min(before, total), …
+// Photons are taken in blocks of 4,096 consecutive ids. In a block, lane l of 64 takes ids l, l + 64, l + 128 … in
+// order, each adding to the lane's own value (which starts at the identity). The 64 lanes are combined pairwise: 0 with
+// 1, 2 with 3 …, then those results pairwise, and so on; the blocks likewise (an odd one out moves up unchanged). At
+// the end the value the variable had before the loop is combined with the total: before + total, min(before, total), …
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,7 @@ inline Number make_integer(std::int32_t value) {
 float minimum_of(float a, float b);
 float maximum_of(float a, float b);
 
-Number find_identity(Role role, Type type); // 0; +inf or INT_MAX; -inf or INT_MIN
+Number find_identity(Role role, Type type);               // 0; +inf or INT_MAX; -inf or INT_MIN
 Number combine(Role role, Type type, Number a, Number b); // sum, minimum, maximum
 
 // A least or greatest with the photon that gave it: the strictly better value wins, equals go to the lower photon id.

@@ -13,19 +13,19 @@ float compute_minimum(float a, float b);
 float compute_maximum(float a, float b);
 float compute_clamp(float x, float low, float high); // min(max(x, low), high)
 
-float compute_sign(float x);                          // -1, 1, or x itself when it is a zero or NaN
-float compute_round(float x);                         // to the nearest whole number, halves away from zero
-float compute_fract(float x);                         // x - floor(x)
-float compute_mod(float x, float y);                  // x - y floor(x / y): y's sign; mod(x, 0) is NaN
-float compute_mix(float a, float b, float t);         // a (1 - t) + b t
-float compute_step(float edge, float x);              // 0 below the edge, else 1; NaN if either is
+float compute_sign(float x);                  // -1, 1, or x itself when it is a zero or NaN
+float compute_round(float x);                 // to the nearest whole number, halves away from zero
+float compute_fract(float x);                 // x - floor(x)
+float compute_mod(float x, float y);          // x - y floor(x / y): y's sign; mod(x, 0) is NaN
+float compute_mix(float a, float b, float t); // a (1 - t) + b t
+float compute_step(float edge, float x);      // 0 below the edge, else 1; NaN if either is
 float compute_smoothstep(float low, float high, float x);
-float compute_power(float x, float y);                // rounded once; any NaN gives NaN (pow(NaN, 0) too)
-float compute_arc_sine(float x);                      // x outside [-1, 1] by at most ARC_TOLERANCE is clamped
+float compute_power(float x, float y); // rounded once; any NaN gives NaN (pow(NaN, 0) too)
+float compute_arc_sine(float x);       // x outside [-1, 1] by at most ARC_TOLERANCE is clamped
 float compute_arc_cosine(float x);
-float compute_magnitude(std::span<const float> v);    // without overflow or underflow on the way
-float compute_dot(std::span<const float> ab);         // a's numbers, then b's; products summed in order
-float compute_hue(float angle, float channel);        // 1/2 + 1/2 cos(angle - 2 pi channel / 3)  [SJL15] section 4.2
+float compute_magnitude(std::span<const float> v); // without overflow or underflow on the way
+float compute_dot(std::span<const float> ab);      // a's numbers, then b's; products summed in order
+float compute_hue(float angle, float channel);     // 1/2 + 1/2 cos(angle - 2 pi channel / 3)  [SJL15] section 4.2
 
 // Cosines of angles between rounded unit vectors overshoot 1 by a few ulps; more is a mistake in the script.
 constexpr float ARC_TOLERANCE = 1e-5f;

@@ -14,7 +14,7 @@
 
 namespace photonloupe::script {
 
-constexpr std::uint32_t PRINT_LIMIT = 20; // lines of a photon loop
+constexpr std::uint32_t PRINT_LIMIT = 20;           // lines of a photon loop
 constexpr std::size_t UNIFORM_PRINT_LIMIT = 10'000; // lines of uniform code
 constexpr std::size_t HISTOGRAM_LIMIT = 256;        // of other names, bounds or bins: a loop may compute them
 constexpr std::uint32_t NO_PHOTON = 0xffffffffu;

@@ -76,10 +76,12 @@ public:
             return find_row(space, photon, k, beta);
         };
         m_outputs.columns = ScriptColumns(photons.count);
-        m_passes.emplace(device, photons, script.program, script.plan, script.passes, m_outputs, settings,
-                         [this](NeighborQuery::Space space, std::span<const std::uint32_t> ids, std::uint32_t k,
-                                float beta) { return find_rows(space, ids, k, beta); },
-                         progress);
+        m_passes.emplace(
+            device, photons, script.program, script.plan, script.passes, m_outputs, settings,
+            [this](NeighborQuery::Space space, std::span<const std::uint32_t> ids, std::uint32_t k, float beta) {
+                return find_rows(space, ids, k, beta);
+            },
+            progress);
         m_interpreter.emplace(script.program, script.plan, m_host, m_outputs, settings, progress);
     }
 

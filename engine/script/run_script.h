@@ -24,8 +24,8 @@ struct ParameterResult {
 };
 
 struct ScriptRun {
-    std::vector<ParameterResult> parameters; // dimensions from 3 on
-    std::vector<float> values;               // [photon][dimension - 3], NaN: unset
+    std::vector<ParameterResult> parameters;  // dimensions from 3 on
+    std::vector<float> values;                // [photon][dimension - 3], NaN: unset
     std::optional<std::vector<float>> colors; // rgb a photon, NaN: unset
     std::vector<HistogramCounts> histograms;
     std::vector<std::string> prints;

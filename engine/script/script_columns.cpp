@@ -7,9 +7,13 @@
 
 namespace photonloupe::script {
 
-float make_unset() { return std::bit_cast<float>(UNSET_BITS); }
+float make_unset() {
+    return std::bit_cast<float>(UNSET_BITS);
+}
 
-bool is_unset(float value) { return std::bit_cast<std::uint32_t>(value) == UNSET_BITS; }
+bool is_unset(float value) {
+    return std::bit_cast<std::uint32_t>(value) == UNSET_BITS;
+}
 
 void ScriptColumns::take_to_host() {
     m_is_on_host = true;

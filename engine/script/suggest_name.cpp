@@ -12,8 +12,7 @@ constexpr std::size_t MAX_COMPARED = 64; // longer names are nobody's misspellin
 
 std::string lower(std::string_view name) {
     std::string result(name);
-    std::transform(result.begin(), result.end(), result.begin(),
-                   [](unsigned char c) { return char(std::tolower(c)); });
+    std::transform(result.begin(), result.end(), result.begin(), [](unsigned char c) { return char(std::tolower(c)); });
     return result;
 }
 

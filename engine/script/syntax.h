@@ -35,7 +35,7 @@ struct SyntaxExpression {
     std::string name;
     Token token;
     Operator operation = Operator::none;
-    bool is_step = false;    // ++ or --
+    bool is_step = false; // ++ or --
     bool is_postfix = false;
     std::uint32_t depth = 1; // of the tree below, this node included; at most MAX_CHAIN
     std::vector<SyntaxExpression> operands;
@@ -59,11 +59,22 @@ struct SignedNumber {
 
 struct SyntaxStatement {
     enum class Kind : std::uint8_t {
-        expression, declare, branch, for_loop, while_loop, do_loop, leave, next, give, block, expose, nothing,
+        expression,
+        declare,
+        branch,
+        for_loop,
+        while_loop,
+        do_loop,
+        leave,
+        next,
+        give,
+        block,
+        expose,
+        nothing,
     };
     Kind kind = Kind::nothing;
-    Span span;                           // of the head
-    std::vector<Declarator> declarators; // declare; a for loop that declares its variable
+    Span span;                                 // of the head
+    std::vector<Declarator> declarators;       // declare; a for loop that declares its variable
     std::vector<SyntaxExpression> first, last; // of a for loop
     std::optional<SyntaxExpression> value;     // expression, condition, returned value
     std::vector<SyntaxStatement> body, otherwise;

@@ -8,7 +8,8 @@ namespace photonloupe::script {
 
 namespace detail {
 
-template <class Visit> struct CallWalker {
+template <class Visit>
+struct CallWalker {
     const Program& program;
     Visit& visit;
 
@@ -39,7 +40,8 @@ template <class Visit> struct CallWalker {
 
 // visit(statement, photon_loop) before what is in it; `photon_loop` is null in uniform code. The arguments of a call
 // come before its function's body.
-template <class Visit> void walk_calls(const Program& program, Visit&& visit) {
+template <class Visit>
+void walk_calls(const Program& program, Visit&& visit) {
     detail::CallWalker<Visit>{program, visit}.walk(program.body, nullptr);
 }
 

@@ -32,8 +32,8 @@ const std::map<std::string, HostStruct> HOST_STRUCTS{
 };
 
 std::vector<std::uint32_t> compile(const KernelVariant& variant, std::uint64_t by_address = 0) {
-    return gpu::compile_glsl(gpu::declare_bindings(gpu::expand_source({.path = variant.path}), variant.defines, by_address),
-                             variant.path);
+    return gpu::compile_glsl(
+        gpu::declare_bindings(gpu::expand_source({.path = variant.path}), variant.defines, by_address), variant.path);
 }
 
 std::string describe(const KernelVariant& variant) {

@@ -61,16 +61,15 @@ TEST(ScriptBuiltins, can_all_be_called_as_their_signature_shows) {
             for (std::size_t i = 0; i < count; ++i) {
                 const Argument argument = builtin.arguments[i];
                 call += i == 0 ? "" : ", ";
-                call += argument == Argument::list                ? "nn"
-                        : argument == Argument::text              ? "\"t\""
-                        : argument == Argument::dimension         ? "3"
-                        : builtin.id == BuiltinId::histogram      ? std::to_string(i)
-                        : argument == Argument::uniform_number    ? std::to_string(i)
-                                                                  : "1";
+                call += argument == Argument::list             ? "nn"
+                        : argument == Argument::text           ? "\"t\""
+                        : argument == Argument::dimension      ? "3"
+                        : builtin.id == BuiltinId::histogram   ? std::to_string(i)
+                        : argument == Argument::uniform_number ? std::to_string(i)
+                                                               : "1";
             }
-            const std::string declared = builtin.id == BuiltinId::declare_photon_parameter
-                                             ? ""
-                                             : "declarePhotonParameter(3, 0, 1); ";
+            const std::string declared =
+                builtin.id == BuiltinId::declare_photon_parameter ? "" : "declarePhotonParameter(3, 0, 1); ";
             const std::string target = builtin.result == Result::list ? "mm = " : "";
             check_accepted("nn = getKNN(0); " + declared + target + call + ");");
         }

@@ -26,14 +26,14 @@ TEST(ScriptDiagnostics, show_place_line_caret_and_note) {
 
 TEST(ScriptDiagnostics, keep_tabs_so_that_carets_stand_under_the_span) {
     EXPECT_EQ(format_first("\tx =\tfoo;"), "a.photon:1:6: error E006: unknown variable 'foo'\n"
-                                          "\tx =\tfoo;\n"
-                                          "\t   \t^^^\n");
+                                           "\tx =\tfoo;\n"
+                                           "\t   \t^^^\n");
 }
 
 TEST(ScriptDiagnostics, count_code_points_not_bytes) {
     EXPECT_EQ(format_first("/* é€𝄞 */ x = foo;"), "a.photon:1:15: error E006: unknown variable 'foo'\n"
-                                                   "/* é€𝄞 */ x = foo;\n"
-                                                   "              ^^^\n");
+                                                  "/* é€𝄞 */ x = foo;\n"
+                                                  "              ^^^\n");
 }
 
 TEST(ScriptDiagnostics, show_control_characters_and_bad_bytes_as_question_marks) {

@@ -39,9 +39,13 @@ EmittedPass emit(const std::string& text) {
     return pass;
 }
 
-std::string in_loop(const std::string& body) { return "for (i = 0; i < n; i++) {\n" + body + "\n}"; }
+std::string in_loop(const std::string& body) {
+    return "for (i = 0; i < n; i++) {\n" + body + "\n}";
+}
 
-bool has(const EmittedPass& pass, const std::string& text) { return pass.glsl.find(text) != std::string::npos; }
+bool has(const EmittedPass& pass, const std::string& text) {
+    return pass.glsl.find(text) != std::string::npos;
+}
 
 std::string repeat(const std::string& text, int times) {
     std::string result;
@@ -53,7 +57,8 @@ std::string repeat(const std::string& text, int times) {
 TEST(Emit, counters_along_the_photons_path_are_not_checked) {
     const char* const unchecked[] = {
         "for (j = 0; j < getNumPathVertices(i); j++) s += getPathVertex(i, j, X);",
-        "m = getNumPathVertices(i); for (j = 1; j < m - 1; j++) s += getPathVertex(i, j + 1, X) - getPathVertex(i, j - 1, Y);",
+        "m = getNumPathVertices(i); for (j = 1; j < m - 1; j++) s += getPathVertex(i, j + 1, X) - getPathVertex(i, j - "
+        "1, Y);",
         "for (int j = 2; j <= getNumPathVertices(i) - 1; j += 1) s += getPathNormal(i, j - 2, Z);",
     };
     const char* const checked[] = {
@@ -69,10 +74,12 @@ TEST(Emit, counters_along_the_photons_path_are_not_checked) {
         "for (j = 0; j < getNumPathVertices(i); j++) s += getPathVertex(0, j, X);",
     };
     for (const char* const text : unchecked)
-        EXPECT_FALSE(has(emit(in_loop(std::string("s = 0.0; ") + text + " setPhotonParameter(i, 3, s);")), "find_place(v_"))
+        EXPECT_FALSE(
+            has(emit(in_loop(std::string("s = 0.0; ") + text + " setPhotonParameter(i, 3, s);")), "find_place(v_"))
             << text;
     for (const char* const text : checked)
-        EXPECT_TRUE(has(emit(in_loop(std::string("s = 0.0; ") + text + " setPhotonParameter(i, 3, s);")), "find_place")) << text;
+        EXPECT_TRUE(has(emit(in_loop(std::string("s = 0.0; ") + text + " setPhotonParameter(i, 3, s);")), "find_place"))
+            << text;
 }
 
 TEST(Emit, names_that_glsl_reserves_are_harmless) {
@@ -96,14 +103,17 @@ TEST(Emit, comments_hold_nothing_that_matters) {
 TEST(Emit, deep_scripts_compile) {
     emit(in_loop("x = " + repeat("(1 + ", 55) + "i" + repeat(")", 55) + "; setPhotonParameter(i, 3, x);"));
     emit(in_loop("x = i" + repeat(" + i * 0.5", 120) + "; setPhotonParameter(i, 3, x);"));
-    emit(in_loop("x = i" + repeat(" && i", 200) + "; y = i" + repeat(" || (x = i) > 3", 100) + "; "
-                                        "setPhotonParameter(i, 3, x + y);"));
+    emit(in_loop("x = i" + repeat(" && i", 200) + "; y = i" + repeat(" || (x = i) > 3", 100) +
+                 "; "
+                 "setPhotonParameter(i, 3, x + y);"));
     emit(in_loop("x = " + repeat("i > 3 ? 1.5 : ", 60) + "2; setPhotonParameter(i, 3, x);"));
     emit(in_loop("x = " + repeat("sin(", 50) + "i" + repeat(")", 50) + "; setPhotonParameter(i, 3, x);"));
-    emit(in_loop("float a[3]; x = " + repeat("a[0 + ", 40) + "i % 3" + repeat("]", 40) + "; setPhotonParameter(i, "
-                                        "3, x);"));
-    emit(in_loop("x = 0; " + repeat("for (j = 0; j < 2; j++) {", 50) + "x += 1;" + repeat("}", 50) + " "
-                                        "setPhotonParameter(i, 3, x);"));
+    emit(in_loop("float a[3]; x = " + repeat("a[0 + ", 40) + "i % 3" + repeat("]", 40) +
+                 "; setPhotonParameter(i, "
+                 "3, x);"));
+    emit(in_loop("x = 0; " + repeat("for (j = 0; j < 2; j++) {", 50) + "x += 1;" + repeat("}", 50) +
+                 " "
+                 "setPhotonParameter(i, 3, x);"));
     emit(in_loop(repeat("if (i > 3) {", 55) + "x = 1;" + repeat("}", 55)));
     std::string arms = "if (i == 0) x = 0;";
     for (int arm = 1; arm < 200; ++arm)
@@ -113,7 +123,7 @@ TEST(Emit, deep_scripts_compile) {
 
 TEST(Emit, numbers_are_read_back_bit_by_bit) {
     const EmittedPass pass = emit(in_loop("x = i * 0.1 + i * 3.4028234e38 + i * 1e-45 + i * 1e-38 + i * 16777217 + "
-                                        "i * 1e10 + i * 0x7fffffff; "
+                                          "i * 1e10 + i * 0x7fffffff; "
                                           "y = i - 2147483647 - 1; setPhotonParameter(i, 3, x + y);"));
     EXPECT_TRUE(has(pass, "* 0.1"));
     EXPECT_TRUE(has(pass, "3.4028235e+38"));
@@ -123,7 +133,8 @@ TEST(Emit, numbers_are_read_back_bit_by_bit) {
 TEST(Emit, a_pass_that_grows_too_long_is_refused) {
     const std::string line = "x = sin(i * 0.5) + cos(i * 0.25) + x * 2 + getPathVertex(i, i % 3, X);";
     const auto script = compile_script({"test", "for (i = 0; i < getNumPhotons(); i++) { x = 0; "
-                                        "" + repeat(line, 800) + "}"});
+                                                "" + repeat(line, 800) +
+                                                    "}"});
     ASSERT_TRUE(script->has_errors);
     EXPECT_EQ(script->diagnostics[0].code, "E072");
     EXPECT_NE(script->diagnostics[0].note.find("split"), std::string::npos);
@@ -139,7 +150,7 @@ TEST(Emit, exposed_values_are_no_part_of_the_text) {
 
 TEST(Emit, constants_are_literals) {
     const EmittedPass pass = emit("GAMMA = 3; k = 7;\n" + in_loop("setPhotonParameter(i, GAMMA, k * "
-                                        "getPhotonPosition(i, Y) + E);"));
+                                                                  "getPhotonPosition(i, Y) + E);"));
     EXPECT_TRUE(pass.uniforms.empty());
     EXPECT_TRUE(has(pass, "7.0 * read_position(v_i).y + 2.7182817"));
 }
@@ -152,7 +163,7 @@ TEST(Emit, only_buffers_that_are_used_are_bound) {
 
 TEST(Emit, checks_are_left_out_where_nothing_can_fail) {
     const EmittedPass pass = emit(in_loop("float c[4]; c[2] = 1; x = c[3] + getPhotonNormal(i, Z); c[1] += x; "
-                                        "setPhotonColourEncoding(i, x, c[1], 1);"));
+                                          "setPhotonColourEncoding(i, x, c[1], 1);"));
     EXPECT_TRUE(pass.sites.empty()) << pass.glsl;
 }
 

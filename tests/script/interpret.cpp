@@ -76,7 +76,9 @@ std::int32_t Ran::integer(const std::string& name, std::size_t element) const {
     return state.variables[index].numbers.at(element).integer;
 }
 
-bool Ran::is_set(const std::string& name) const { return state.variables[find(name)].is_set; }
+bool Ran::is_set(const std::string& name) const {
+    return state.variables[find(name)].is_set;
+}
 
 const FaultReport* Ran::find_fault(Fault kind) const {
     for (const FaultReport& fault : outputs.faults)

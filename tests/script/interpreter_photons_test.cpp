@@ -11,7 +11,9 @@ namespace {
 
 constexpr const char* EACH = "for (i = 0; i < getNumPhotons(); i++) ";
 
-std::string each(const std::string& body) { return EACH + std::string("{ ") + body + " }"; }
+std::string each(const std::string& body) {
+    return EACH + std::string("{ ") + body + " }";
+}
 
 TEST(InterpreterPhotons, columns_and_paths_are_read) {
     const Ran ran = interpret(R"(
@@ -33,8 +35,9 @@ TEST(InterpreterPhotons, columns_and_paths_are_read) {
 }
 
 TEST(InterpreterPhotons, parameters_and_colors_are_set_and_what_is_not_stays_unset) {
-    Ran ran = interpret("GAMMA = 3; declarePhotonParameter(GAMMA, 0, 10);" +
-                        each("if (i % 2 == 0) continue; setPhotonParameter(i, GAMMA, i); setPhotonColourEncoding(i, 1, 0.5, i);"));
+    Ran ran = interpret(
+        "GAMMA = 3; declarePhotonParameter(GAMMA, 0, 10);" +
+        each("if (i % 2 == 0) continue; setPhotonParameter(i, GAMMA, i); setPhotonColourEncoding(i, 1, 0.5, i);"));
     ScriptColumns& columns = ran.outputs.columns;
     ASSERT_EQ(columns.declared().size(), 1u);
     EXPECT_EQ(columns.declared()[0].name, "GAMMA");
@@ -45,8 +48,8 @@ TEST(InterpreterPhotons, parameters_and_colors_are_set_and_what_is_not_stays_uns
 }
 
 TEST(InterpreterPhotons, a_parameter_set_in_one_loop_is_read_in_the_next) {
-    const Ran ran = interpret("declarePhotonParameter(3, 0, 100);" + each("setPhotonParameter(i, 3, i * i);") + "s = 0;" +
-                              each("s += getPhotonParameter(i, 3);"));
+    const Ran ran = interpret("declarePhotonParameter(3, 0, 100);" + each("setPhotonParameter(i, 3, i * i);") +
+                              "s = 0;" + each("s += getPhotonParameter(i, 3);"));
     EXPECT_EQ(ran.real("s"), 0 + 1 + 4 + 9 + 16 + 25 + 36 + 49);
 }
 
@@ -68,7 +71,8 @@ TEST(InterpreterPhotons, sums_counts_extremes_and_choices_are_reduced) {
 }
 
 TEST(InterpreterPhotons, ties_of_a_choice_go_to_the_lowest_photon) {
-    const Ran ran = interpret("best = 1e9; who = -1;" + each("if (getPhotonPower(i, 0) < best) { best = getPhotonPower(i, 0); who = i; }"),
+    const Ran ran = interpret("best = 1e9; who = -1;" +
+                                  each("if (getPhotonPower(i, 0) < best) { best = getPhotonPower(i, 0); who = i; }"),
                               make_photons(10'000));
     EXPECT_EQ(ran.integer("who"), 0);
 }
@@ -92,7 +96,8 @@ TEST(InterpreterPhotons, float_sums_are_taken_in_blocks_and_lanes) {
 
 TEST(InterpreterPhotons, arrays_are_reduced_by_element) {
     const Ran ran = interpret("int c[4]; float low[4]; for (k = 0; k < 4; k++) low[k] = 1000;" +
-                              each("c[i % 4]++; low[i % 4] = min(low[i % 4], getPhotonPosition(i, Y));"), make_photons(10));
+                                  each("c[i % 4]++; low[i % 4] = min(low[i % 4], getPhotonPosition(i, Y));"),
+                              make_photons(10));
     EXPECT_EQ(ran.integer("c", 0), 3);
     EXPECT_EQ(ran.integer("c", 3), 2);
     EXPECT_EQ(ran.real("low", 3), 30.0f);
@@ -132,7 +137,8 @@ TEST(InterpreterPhotons, a_loop_stops_when_too_many_photons_run_out) {
 }
 
 TEST(InterpreterPhotons, faults_count_photons_once_and_name_the_first) {
-    const Ran ran = interpret(each("for (j = 0; j < 3; j++) v = getPathVertex(i, 3 + (i < 4 ? 0 : -1), X);"), make_photons(8));
+    const Ran ran =
+        interpret(each("for (j = 0; j < 3; j++) v = getPathVertex(i, 3 + (i < 4 ? 0 : -1), X);"), make_photons(8));
     const FaultReport* fault = ran.find_fault(Fault::vertex_index);
     ASSERT_TRUE(fault);
     EXPECT_EQ(fault->count, 4u);
@@ -190,7 +196,8 @@ TEST(InterpreterPhotons, parameters_are_named_by_label_constant_or_number) {
             names += parameter.name + ' ';
         return names;
     };
-    EXPECT_EQ(name_all("U = 3; declarePhotonParameter(U, 0, 1); declarePhotonParameter(4, 0, 1, \"angle\");"), "U angle ");
+    EXPECT_EQ(name_all("U = 3; declarePhotonParameter(U, 0, 1); declarePhotonParameter(4, 0, 1, \"angle\");"),
+              "U angle ");
     EXPECT_EQ(name_all("for (d = 3; d < 6; d++) declarePhotonParameter(d, 0, 1);"), "p3 p4 p5 ");
     EXPECT_EQ(name_all("f(3); f(4); function f(d) { declarePhotonParameter(d, -1, 1); }"), "d p4 ");
     EXPECT_EQ(name_all("for (d = 3; d < 5; d++) declarePhotonParameter(d, 0, 1, \"same\");"), "same p4 ");
@@ -203,7 +210,8 @@ TEST(InterpreterPhotons, parameters_are_declared_in_any_order_but_without_gaps) 
     EXPECT_EQ(ran.outputs.columns.declared()[1].high, 2.0f);
     EXPECT_EQ(ran.outputs.columns.read_parameter(0, 3), -3.0f);
     EXPECT_EQ(ran.outputs.columns.read_parameter(1, 3), 3.0f);
-    const Ran gap = interpret("n = getNumPhotons(); declarePhotonParameter(n - 5, 0, 1); declarePhotonParameter(n, 0, 1);");
+    const Ran gap =
+        interpret("n = getNumPhotons(); declarePhotonParameter(n - 5, 0, 1); declarePhotonParameter(n, 0, 1);");
     EXPECT_EQ(gap.outputs.columns.declared().size(), 1u);
     EXPECT_TRUE(gap.find_fault(Fault::declaration));
 }
@@ -215,14 +223,16 @@ TEST(InterpreterPhotons, bounds_known_at_run_time_only_are_checked_there) {
 }
 
 TEST(InterpreterPhotons, a_list_that_may_be_unset_is_empty_and_reported) {
-    const Ran ran = interpret("a = f(1); b = f(-1); function f(x) { if (x > 0) nn = getKNN(0, 3); return length(nn); }");
+    const Ran ran =
+        interpret("a = f(1); b = f(-1); function f(x) { if (x > 0) nn = getKNN(0, 3); return length(nn); }");
     EXPECT_EQ(ran.integer("a"), 3);
     EXPECT_EQ(ran.integer("b"), 0);
     EXPECT_TRUE(ran.find_fault(Fault::unset_variable));
 }
 
 TEST(InterpreterPhotons, reports_stay_small_whatever_a_script_does) {
-    const Ran ran = interpret("for (j = 0; j < 20000; j++) { print(\"line\", j); histogram(\"h\", 0, 0, j + 1, 4096); }");
+    const Ran ran =
+        interpret("for (j = 0; j < 20000; j++) { print(\"line\", j); histogram(\"h\", 0, 0, j + 1, 4096); }");
     EXPECT_EQ(ran.outputs.prints.size(), UNIFORM_PRINT_LIMIT);
     EXPECT_EQ(ran.outputs.histograms.size(), HISTOGRAM_LIMIT);
     EXPECT_TRUE(ran.find_fault(Fault::histogram_range));
@@ -231,8 +241,9 @@ TEST(InterpreterPhotons, reports_stay_small_whatever_a_script_does) {
 }
 
 TEST(InterpreterPhotons, points_pushed_by_all_photons_are_one_set) {
-    const Ran ran = interpret("resetPCA3D();" + each("pushPCA3D(i, 2 * i, 0);") +
-                              "ok = decomposePCA3D(); l = getPCAEigenvalue(0); u = getPCAEigenvector(0, Y); m = getPCAMean(1);");
+    const Ran ran =
+        interpret("resetPCA3D();" + each("pushPCA3D(i, 2 * i, 0);") +
+                  "ok = decomposePCA3D(); l = getPCAEigenvalue(0); u = getPCAEigenvector(0, Y); m = getPCAMean(1);");
     EXPECT_EQ(ran.integer("ok"), 1);
     EXPECT_NEAR(ran.real("l"), 5 * 5.25f, 1e-4f); // variance of 0 … 7 is 5.25
     EXPECT_NEAR(std::abs(ran.real("u")), 2 / std::sqrt(5.0f), 1e-6f);

@@ -128,7 +128,8 @@ TEST(InterpreterSerial, a_photon_out_of_fuel_takes_back_extremes_choices_and_poi
             j = 0; while (i >= 6) j++;
         }
         ok = decomposePCA2D(); mean = getPCAMean(0);
-    )", make_photons(8), settings);
+    )",
+                              make_photons(8), settings);
     EXPECT_EQ(ran.real("low"), -5.0f);
     EXPECT_EQ(ran.real("best"), 5.0f);
     EXPECT_EQ(ran.integer("who"), 5);

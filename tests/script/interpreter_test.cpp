@@ -28,7 +28,8 @@ TEST(Interpreter, integers_wrap) {
 }
 
 TEST(Interpreter, comparisons_and_logic_give_whole_truths_and_stop_early) {
-    const Ran ran = interpret("n = 0; a = (2 > 1) + (1 == 1); b = 0 && n++; c = 1 || n++; d = !3; e = (0.0/0.0) ? 1 : 2;");
+    const Ran ran =
+        interpret("n = 0; a = (2 > 1) + (1 == 1); b = 0 && n++; c = 1 || n++; d = !3; e = (0.0/0.0) ? 1 : 2;");
     EXPECT_EQ(ran.integer("a"), 2);
     EXPECT_EQ(ran.integer("b"), 0);
     EXPECT_EQ(ran.integer("c"), 1);
@@ -79,7 +80,8 @@ TEST(Interpreter, arrays_are_zeroed_whenever_their_declaration_runs) {
 }
 
 TEST(Interpreter, what_is_outside_an_array_is_nan_and_writes_are_dropped) {
-    const Ran ran = interpret("float c[3]; i = getNumPhotons(); c[i] = 1; a = c[i]; h = i * 0.0625; b = c[h]; c[1.0 * 2] = 4; d = c[2];");
+    const Ran ran = interpret(
+        "float c[3]; i = getNumPhotons(); c[i] = 1; a = c[i]; h = i * 0.0625; b = c[h]; c[1.0 * 2] = 4; d = c[2];");
     EXPECT_TRUE(std::isnan(ran.real("a")));
     EXPECT_TRUE(std::isnan(ran.real("b")));
     EXPECT_EQ(ran.real("d"), 4.0f);

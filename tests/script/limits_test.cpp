@@ -22,10 +22,17 @@ TEST(ScriptLimits, sixty_four_levels_of_everything_that_nests) {
         const char *begin, *open, *middle, *close, *end;
     };
     const Nest nests[] = {
-        {"x = ", "(", "1", ")", ";"},      {"x = 1; y = ", "- ", "x", "", ";"}, {"", "{", "x = 1;", "}", ""},
-        {"", "if (1) {", "x = 1;", "}", ""}, {"", "if (1) ", "x = 1;", "", ""},   {"", "while (0) {", "x = 1;", "}", ""},
-        {"x = ", "abs(", "1", ")", ";"},   {"x = ", "1 ? ", "1", " : 2", ";"},  
-        {"float a[9]; x = ", "a[", "0", "]", ";"}, {"x = ", "1 ? 2 : ", "1", "", ";"}, {"", "do ", "x = 1;", " while (0);", ""},
+        {"x = ", "(", "1", ")", ";"},
+        {"x = 1; y = ", "- ", "x", "", ";"},
+        {"", "{", "x = 1;", "}", ""},
+        {"", "if (1) {", "x = 1;", "}", ""},
+        {"", "if (1) ", "x = 1;", "", ""},
+        {"", "while (0) {", "x = 1;", "}", ""},
+        {"x = ", "abs(", "1", ")", ";"},
+        {"x = ", "1 ? ", "1", " : 2", ";"},
+        {"float a[9]; x = ", "a[", "0", "]", ";"},
+        {"x = ", "1 ? 2 : ", "1", "", ";"},
+        {"", "do ", "x = 1;", " while (0);", ""},
     };
     for (const Nest& nest : nests) {
         const auto write = [&](int levels) {
@@ -128,8 +135,8 @@ TEST(ScriptLimits, inlining_that_grows_without_end_is_refused) {
 TEST(ScriptLimits, the_longest_scripts_are_checked_quickly) {
     std::string reversed = "v255 = 0.5;";
     for (int i = 0; i < 255; ++i)
-        reversed = "v" + std::to_string(i) + " = 0; v" + std::to_string(i) + " = v" + std::to_string(i + 1) + ";" +
-                   reversed;
+        reversed =
+            "v" + std::to_string(i) + " = 0; v" + std::to_string(i) + " = v" + std::to_string(i + 1) + ";" + reversed;
     find_codes(reversed);
     std::string wide = "a = b = c = 1;";
     while (wide.size() < 65000)

@@ -37,8 +37,9 @@ TEST(ScriptLoops, over_photons_are_recognized_in_all_their_forms) {
           "for (i = 0; i < getNumPhotons(); i += 1)", "for (i = 0; i < getNumPhotons(); i = i + 1)",
           "for (i = 0; i < getNumPhotons(); i = 1 + i)", "for (int i = 0; i < getNumPhotons(); i++)",
           "for (i = 0; i <= getNumPhotons() - 1; i++)", "n = getNumPhotons(); for (i = 0; i < n; i++)",
-          "int n = getNumPhotons(); for (i = 0; i <= n - 1; i++)", "m = getNumPhotons(); n = m; for (i = 0; n > i; i++)",
-          "float n = getNumPhotons(); for (i = 0; i < n; i++)", "for (i = 0; n - 1 >= i; i++)"}) {
+          "int n = getNumPhotons(); for (i = 0; i <= n - 1; i++)",
+          "m = getNumPhotons(); n = m; for (i = 0; n > i; i++)", "float n = getNumPhotons(); for (i = 0; i < n; i++)",
+          "for (i = 0; n - 1 >= i; i++)"}) {
         const std::string start = std::string(head).starts_with("for (i = 0; n - 1") ? "n = getNumPhotons(); " : "";
         EXPECT_EQ(describe_loops(start + head + " { x = i; }"), "p") << head;
     }
@@ -48,10 +49,10 @@ TEST(ScriptLoops, that_only_look_like_it_are_ordinary) {
     for (const char* const text :
          {"for (i = 1; i < getNumPhotons(); i++) {}", "for (i = 0; i < getNumPhotons(); i += 2) {}",
           "for (i = 0; i <= getNumPhotons(); i++) {}", "for (i = 0; i < getNumPhotons() - 1; i++) {}",
-          "n = getNumPhotons(); n = 5; for (i = 0; i < n; i++) {}", "n = getNumPhotons(); n--; for (i = 0; i < n; i++) {}",
-          "for (i = 0; i < getNumPhotons(); i--) {}", "i = 0; while (i < getNumPhotons()) i++;",
-          "for (i = 0, j = 0; i < getNumPhotons(); i++) {}", "j = 0; for (i = 0; i < getNumPhotons(); j++) { i++; }",
-          "for (i = 0; i != getNumPhotons(); i++) {}",
+          "n = getNumPhotons(); n = 5; for (i = 0; i < n; i++) {}",
+          "n = getNumPhotons(); n--; for (i = 0; i < n; i++) {}", "for (i = 0; i < getNumPhotons(); i--) {}",
+          "i = 0; while (i < getNumPhotons()) i++;", "for (i = 0, j = 0; i < getNumPhotons(); i++) {}",
+          "j = 0; for (i = 0; i < getNumPhotons(); j++) { i++; }", "for (i = 0; i != getNumPhotons(); i++) {}",
           "if (getNumPhotons() > 3) n = getNumPhotons(); for (i = 0; i < n; i++) {}"})
         EXPECT_EQ(describe_loops(text).back(), 'f') << text;
 }
@@ -78,10 +79,10 @@ TEST(ScriptLoops, that_count_are_bounded) {
          {"for (j = 0; j < 10; j++)", "for (j = 10; j > 0; j--)", "for (j = 10; j >= 0; j -= 2)",
           "for (j = 0; 10 > j; j++)", "for (int j = 0; j <= 999999 - 1; j += 1)", "for (j = -5; j < 5; j = j + 3)",
           "for (j = 0; j < getNumPathVertices(0); j++)", "for (j = getNumVertices(0) - 1; j > 0; j--)",
-          "v = getNumPathVertices(0) - 2; for (j = 1; j < v - 1; j++)", "nn = getKNN(0); for (j = 0; j < length(nn); j++)",
-          "nn = getKNN(0); m = length(nn); for (j = 0; j < m; j++)", "for (j = 0; j < 10 && random(j, 0) < 0.5; j++)",
-          "for (j = 0; j < min(getNumPhotons(), 100); j++)", "for (j = 0; j < getNumPathVertices(0) / 2; j++)",
-          "N = 7; for (j = 0; j < N; j++)"})
+          "v = getNumPathVertices(0) - 2; for (j = 1; j < v - 1; j++)",
+          "nn = getKNN(0); for (j = 0; j < length(nn); j++)", "nn = getKNN(0); m = length(nn); for (j = 0; j < m; j++)",
+          "for (j = 0; j < 10 && random(j, 0) < 0.5; j++)", "for (j = 0; j < min(getNumPhotons(), 100); j++)",
+          "for (j = 0; j < getNumPathVertices(0) / 2; j++)", "N = 7; for (j = 0; j < N; j++)"})
         EXPECT_EQ(describe_loops(std::string(head) + " { if (j == 3) continue; if (j == 5) break; }"), "b") << head;
 }
 
@@ -99,10 +100,12 @@ TEST(ScriptLoops, that_may_not_end_need_fuel) {
 TEST(ScriptLoops, are_bounded_together) {
     EXPECT_EQ(describe_loops("for (a = 0; a < 999; a++) for (b = 0; b < 999; b++) {}"), "bb");
     EXPECT_EQ(describe_loops("for (a = 0; a < 999; a++) for (b = 0; b < 999; b++) for (c = 0; c < 2; c++) {}"), "bbf");
-    EXPECT_EQ(describe_loops("for (a = 0; a < 10; a++) for (b = a + 1; b < 10; b++) for (c = b; c > a; c--) {}"), "bbb");
+    EXPECT_EQ(describe_loops("for (a = 0; a < 10; a++) for (b = a + 1; b < 10; b++) for (c = b; c > a; c--) {}"),
+              "bbb");
     EXPECT_EQ(describe_loops("while (random(0, 0) < 2) for (b = 0; b < 3; b++) {}"), "ff");
-    EXPECT_EQ(describe_loops("while (random(0, 0) < 2) for (i = 0; i < getNumPhotons(); i++) for (b = 0; b < 3; b++) {}"),
-              "fpb");
+    EXPECT_EQ(
+        describe_loops("while (random(0, 0) < 2) for (i = 0; i < getNumPhotons(); i++) for (b = 0; b < 3; b++) {}"),
+        "fpb");
     EXPECT_EQ(describe_loops("for (a = 0; a < 2000; a++) f(); function f() { for (b = 0; b < 2000; b++) {} }"), "bf");
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole scripts over paths made by hand, against closed forms in double precision: tortuosity, principal components of a
-// path [SJL15], clusters, histograms, the brightest photon, axes of all photons.
+// Whole scripts over paths made by hand, against closed forms in double precision: tortuosity, principal components of
+// a path [SJL15], clusters, histograms, the brightest photon, axes of all photons.
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <numbers>
@@ -22,10 +22,18 @@ struct Path {
     std::vector<Point> vertices, normals;
 };
 
-Point scale(const Point& a, double s) { return {a[0] * s, a[1] * s, a[2] * s}; }
-Point subtract(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point normalize(const Point& a) { return scale(a, 1 / std::sqrt(dot(a, a))); }
+Point scale(const Point& a, double s) {
+    return {a[0] * s, a[1] * s, a[2] * s};
+}
+Point subtract(const Point& a, const Point& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+double dot(const Point& a, const Point& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+Point normalize(const Point& a) {
+    return scale(a, 1 / std::sqrt(dot(a, a)));
+}
 
 HostPhotons make_path_photons(const std::vector<Path>& paths) {
     HostPhotons photons = make_photons(std::uint32_t(paths.size()), 0);
@@ -68,8 +76,8 @@ double compute_tortuosity(const Path& path) {
     return sum / (std::numbers::pi * double(m - 2));
 }
 
-// [SJL15] section 5.3: first eigenvector times the root of its eigenvalue, of the planar forms of the primal direction and
-// the path's normals (whose azimuths are doubled); METHODS section 4 chooses the sign.
+// [SJL15] section 5.3: first eigenvector times the root of its eigenvalue, of the planar forms of the primal direction
+// and the path's normals (whose azimuths are doubled); METHODS section 4 chooses the sign.
 std::array<double, 2> compute_path_component(const Path& path) {
     std::vector<std::array<double, 2>> points;
     const auto push = [&](const Point& t, double turns) {
@@ -142,7 +150,7 @@ constexpr const char* COMPONENT = R"(
 
 void expect_tortuosity(const std::string& text) {
     std::vector<Path> paths = make_random_paths(300);
-    paths[0].vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}}; // two right angles: 1/2
+    paths[0].vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}};          // two right angles: 1/2
     paths[1].vertices = {{0, 0, 0}, {.1, .1, .1}, {.2, .2, .2}, {.3, .3, .3}}; // straight, but for rounding
     paths[0].normals = paths[1].normals = std::vector<Point>(4, {0, 1, 0});
     Ran ran = interpret(text, make_path_photons(paths));

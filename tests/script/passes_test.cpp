@@ -260,8 +260,8 @@ TEST(Passes, photons_with_more_turns_than_the_device_has_are_taken_by_the_interp
     RunSettings settings;
     settings.fuel = 90'000;
     expect_same(loop("x = 0; while (x < (i % 2000 == 77 ? 70000 : i % 2000 == 5 ? 100000 : 10)) x += 1; v = "
-                     "x;"), get_photons(),
-                {}, settings);
+                     "x;"),
+                get_photons(), {}, settings);
 }
 
 TEST(Passes, k_means_agrees) {

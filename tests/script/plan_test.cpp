@@ -37,8 +37,11 @@ struct Case {
 };
 
 // After a declared parameter, so that bodies may set it.
-std::string complete(const std::string& text) { return "declarePhotonParameter(3, 0, 1);\nn = "
-                                        "getNumPhotons();\n" + text; }
+std::string complete(const std::string& text) {
+    return "declarePhotonParameter(3, 0, 1);\nn = "
+           "getNumPhotons();\n" +
+           text;
+}
 
 class Parallel : public ::testing::TestWithParam<Case> {};
 class Serial : public ::testing::TestWithParam<Case> {};
@@ -72,7 +75,7 @@ constexpr Case PARALLEL[] = {
                             "x); }"},
     {"local behind continue", "for (i = 0; i < n; i++) { if (i < 3) continue; x = 1; setPhotonParameter(i, 3, x); }"},
     {"local set by a loop that runs at least once", "for (i = 0; i < n; i++) { do { x = 1; } while (x > 2); "
-                                        "setPhotonParameter(i, 3, x); }"},
+                                                    "setPhotonParameter(i, 3, x); }"},
     {"local of a later loop too", "for (i = 0; i < n; i++) { x = i; } for (i = 0; i < n; i++) { x = 2; "
                                   "setPhotonParameter(i, 3, x); }"},
     {"local in a uniform loop", "for (t = 0; t < 3; t++) for (i = 0; i < n; i++) { x = t; setPhotonParameter(i, 3, "
@@ -99,7 +102,7 @@ constexpr Case PARALLEL[] = {
     {"arg-max", "s = -1; k = -1; for (i = 0; i < n; i++) { e = getPhotonPower(i, 0); if (s < e) { s = e; k = i; } } "
                 "print(\"k\", k, s);"},
     {"arg-max of a call, written twice", "s = -1; k = -1; for (i = 0; i < n; i++) if (getPhotonPower(i, 0) > s) { s "
-                                        "= getPhotonPower(i, 0); k = i; } print(\"k\", k, s);"},
+                                         "= getPhotonPower(i, 0); k = i; } print(\"k\", k, s);"},
     {"arg-min with more than one", "s = 9; a = 0; b = 0; for (i = 0; i < n; i++) if (i < s) { b = i * 2; s = i; a = "
                                    "3; } print(\"k\", a, b);"},
     {"arg-min in an inner loop", "s = 9; a = 0; b = 0; for (i = 0; i < n; i++) for (j = 0; j < 4; j++) { d = i * j; "
@@ -111,7 +114,7 @@ constexpr Case PARALLEL[] = {
     {"array arg-max", "float h[8]; int who[8]; for (i = 0; i < n; i++) { k = i % 8; if (i > h[k]) { h[k] = i; "
                       "who[k] = i; } } print(\"h\", h[2], who[2]);"},
     {"loop through a function's parameter", "function f(p) { setPhotonParameter(p, 3, 1); } for (i = 0; i < n; i++) "
-                                        "f(i);"},
+                                            "f(i);"},
     {"through two functions", "function g(q) { setPhotonParameter(q, 3, getPhotonParameter(q, 3)); } function f(p) "
                               "{ g(p); } for (i = 0; i < n; i++) f(i);"},
     {"a function's own names", "function f(a) { t = a * 2; return t; } for (i = 0; i < n; i++) "
@@ -119,7 +122,7 @@ constexpr Case PARALLEL[] = {
     {"own parameters read while set", "for (i = 0; i < n; i++) setPhotonParameter(i, 3, getPhotonParameter(i, 3) + "
                                       "1);"},
     {"others' position read while parameters are set", "for (i = 0; i < n; i++) setPhotonParameter(i, 3, "
-                                        "getPhotonParameter((i + 1) % n, 0));"},
+                                                       "getPhotonParameter((i + 1) % n, 0));"},
     {"others' parameters read", "for (i = 0; i < n; i++) { x = getPhotonParameter(n - 1 - i, 3); "
                                 "setPhotonColourEncoding(i, x, x, x); }"},
     {"local PCA", "for (i = 0; i < n; i++) { resetPCA2D(); pushPCA2D(i, 1); pushPCA2D(2, i); if (decomposePCA2D() "
@@ -158,14 +161,20 @@ while (moved > 0.001) {
 };
 
 constexpr Case SERIAL[] = {
-    {"local on one path", "for (i = 0; i < n; i++) { if (i % 2 == 0) x = 1; setPhotonParameter(i, 3, x); } x = "
-                          "0;", "'x'"},
-    {"set by a loop that may not run", "for (i = 0; i < n; i++) { for (j = 0; j < i; j++) x = 1; "
-                                       "setPhotonParameter(i, 3, x); }", "'x'"},
+    {"local on one path",
+     "for (i = 0; i < n; i++) { if (i % 2 == 0) x = 1; setPhotonParameter(i, 3, x); } x = "
+     "0;",
+     "'x'"},
+    {"set by a loop that may not run",
+     "for (i = 0; i < n; i++) { for (j = 0; j < i; j++) x = 1; "
+     "setPhotonParameter(i, 3, x); }",
+     "'x'"},
     {"read before it is assigned", "x = 0; for (i = 0; i < n; i++) { setPhotonParameter(i, 3, x); x = i; }", "'x'"},
     {"read after the loop", "for (i = 0; i < n; i++) { x = i * 2; } print(\"x\", x);", "read after the loop (line 3)"},
-    {"read around a uniform loop", "x = 0; for (t = 0; t < 3; t++) { y = x; for (i = 0; i < n; i++) { x = i; } "
-                                   "}", "'x'"},
+    {"read around a uniform loop",
+     "x = 0; for (t = 0; t < 3; t++) { y = x; for (i = 0; i < n; i++) { x = i; } "
+     "}",
+     "'x'"},
     {"array written at a place", "float a[4]; for (i = 0; i < n; i++) { a[i % 4] = i; }  print(\"a\", a[0]);", "'a'"},
     {"sum and read", "s = 0; for (i = 0; i < n; i++) { s += 1; setPhotonParameter(i, 3, s); } print(\"s\", s);", "'s'"},
     {"sum in its own operand", "s = 0; for (i = 0; i < n; i++) { s += s + 1; } print(\"s\", s);", "'s'"},
@@ -174,50 +183,92 @@ constexpr Case SERIAL[] = {
     {"product", "s = 1; for (i = 0; i < n; i++) { s *= 2; } print(\"s\", s);", "'s'"},
     {"difference the wrong way", "s = 1; for (i = 0; i < n; i++) { s = i - s; } print(\"s\", s);", "'s'"},
     {"sum and minimum", "s = 1; for (i = 0; i < n; i++) { s += 2; s = min(s, i); } print(\"s\", s);", "'s' is both"},
-    {"minimum and maximum", "s = 1; for (i = 0; i < n; i++) { s = min(s, i); s = max(s, 2); } print(\"s\", "
-                            "s);", "'s' is both"},
+    {"minimum and maximum",
+     "s = 1; for (i = 0; i < n; i++) { s = min(s, i); s = max(s, 2); } print(\"s\", "
+     "s);",
+     "'s' is both"},
     {"sum that starts anew", "s = 1; for (i = 0; i < n; i++) { s += 2; if (i == 7) s = 0; } print(\"s\", s);", "'s'"},
-    {"arg-min that is read", "s = 9; k = 0; for (i = 0; i < n; i++) { if (i < s) { s = i; k = i; } "
-                             "setPhotonParameter(i, 3, k); } print(\"k\", k);", "'k'"},
-    {"arg-min that is assigned elsewhere", "s = 9; k = 0; for (i = 0; i < n; i++) { k = 2; if (i < s) { s = i; k = "
-                                        "i; } } print(\"k\", k);", "'k'"},
-    {"arg-min that tells whether it won", "s = 9; for (i = 0; i < n; i++) { k = 0; if (i < s) { s = i; k = 1; } "
-                                        "setPhotonParameter(i, 3, k); } print(\"s\", s);", "'s'"},
-    {"arg-min, ties to the last", "s = 9; k = 0; for (i = 0; i < n; i++) { if (i <= s) { s = i; k = i; } } "
-                                  "print(\"k\", k);", "'s'"},
-    {"arg-min of something else", "s = 9; k = 0; for (i = 0; i < n; i++) { if (i < s) { s = i + 1; k = i; } } "
-                                  "print(\"k\", k);", "'s'"},
-    {"arg-min with an else", "s = 9; k = 0; for (i = 0; i < n; i++) { if (i < s) { s = i; } else k = i; } "
-                             "print(\"k\", k, s);", "'s'"},
-    {"arg-min whose second part is missing once", "s = 9; k = 0; for (i = 0; i < n; i++) { if (i < s) { s = i; k = "
-                                        "i; } if (2 * i < s) { s = 2 * i; } } print(\"k\", k);", "'k'"},
-    {"array arg-min with a scalar", "float h[8]; k = 0; for (i = 0; i < n; i++) { if (i < h[i % 8]) { h[i % 8] = i; "
-                                    "k = i; } } print(\"k\", k, h[0]);", "'h'"},
-    {"array minimum at another place", "float h[8]; for (i = 0; i < n; i++) { if (i < h[i % 8]) h[i % 4] = i; } "
-                                       "print(\"h\", h[0]);", "'h'"},
-    {"array sum and read", "float h[8]; for (i = 0; i < n; i++) { h[i % 8] += 1; x = h[0]; } print(\"h\", "
-                           "h[0]);", "'h'"},
-    {"array sum in its own index", "int h[8]; for (i = 0; i < n; i++) { h[h[0] % 8] += 1; } print(\"h\", "
-                                   "h[0]);", "'h'"},
+    {"arg-min that is read",
+     "s = 9; k = 0; for (i = 0; i < n; i++) { if (i < s) { s = i; k = i; } "
+     "setPhotonParameter(i, 3, k); } print(\"k\", k);",
+     "'k'"},
+    {"arg-min that is assigned elsewhere",
+     "s = 9; k = 0; for (i = 0; i < n; i++) { k = 2; if (i < s) { s = i; k = "
+     "i; } } print(\"k\", k);",
+     "'k'"},
+    {"arg-min that tells whether it won",
+     "s = 9; for (i = 0; i < n; i++) { k = 0; if (i < s) { s = i; k = 1; } "
+     "setPhotonParameter(i, 3, k); } print(\"s\", s);",
+     "'s'"},
+    {"arg-min, ties to the last",
+     "s = 9; k = 0; for (i = 0; i < n; i++) { if (i <= s) { s = i; k = i; } } "
+     "print(\"k\", k);",
+     "'s'"},
+    {"arg-min of something else",
+     "s = 9; k = 0; for (i = 0; i < n; i++) { if (i < s) { s = i + 1; k = i; } } "
+     "print(\"k\", k);",
+     "'s'"},
+    {"arg-min with an else",
+     "s = 9; k = 0; for (i = 0; i < n; i++) { if (i < s) { s = i; } else k = i; } "
+     "print(\"k\", k, s);",
+     "'s'"},
+    {"arg-min whose second part is missing once",
+     "s = 9; k = 0; for (i = 0; i < n; i++) { if (i < s) { s = i; k = "
+     "i; } if (2 * i < s) { s = 2 * i; } } print(\"k\", k);",
+     "'k'"},
+    {"array arg-min with a scalar",
+     "float h[8]; k = 0; for (i = 0; i < n; i++) { if (i < h[i % 8]) { h[i % 8] = i; "
+     "k = i; } } print(\"k\", k, h[0]);",
+     "'h'"},
+    {"array minimum at another place",
+     "float h[8]; for (i = 0; i < n; i++) { if (i < h[i % 8]) h[i % 4] = i; } "
+     "print(\"h\", h[0]);",
+     "'h'"},
+    {"array sum and read",
+     "float h[8]; for (i = 0; i < n; i++) { h[i % 8] += 1; x = h[0]; } print(\"h\", "
+     "h[0]);",
+     "'h'"},
+    {"array sum in its own index",
+     "int h[8]; for (i = 0; i < n; i++) { h[h[0] % 8] += 1; } print(\"h\", "
+     "h[0]);",
+     "'h'"},
     {"break", "for (i = 0; i < n; i++) { if (i > 5) break; }", "break"},
-    {"parameter of another photon set", "for (i = 0; i < n; i++) { setPhotonParameter((i + 1) % n, 3, 1); "
-                                        "}", "setPhotonParameter"},
-    {"parameter of a copy of the photon set", "for (i = 0; i < n; i++) { p = i; setPhotonParameter(p, 3, 1); "
-                                        "}", "setPhotonParameter"},
-    {"color of another photon set", "for (i = 0; i < n; i++) { setPhotonColourEncoding(0, 1, 1, 1); "
-                                    "}", "setPhotonColourEncoding"},
-    {"others' parameters read while set", "for (i = 0; i < n; i++) { setPhotonParameter(i, 3, getPhotonParameter(0, "
-                                        "3)); }", "getPhotonParameter"},
-    {"PCA without a reset", "for (i = 0; i < n; i++) { pushPCA2D(i, 1); decomposePCA2D(); setPhotonParameter(i, 3, "
-                            "getPCAEigenvalue(0)); }", "reset"},
-    {"PCA reset on one path", "for (i = 0; i < n; i++) { if (i > 3) resetPCA2D(); pushPCA2D(i, 1); "
-                              "decomposePCA2D(); }", "reset"},
-    {"decomposition read after the loop", "for (i = 0; i < n; i++) { resetPCA2D(); pushPCA2D(i, 1); "
-                                        "decomposePCA2D(); } print(\"v\", getPCAEigenvalue(0));", "decomposition"},
-    {"last PCA decomposed after the loop", "for (i = 0; i < n; i++) { resetPCA2D(); pushPCA2D(i, 1); } "
-                                        "decomposePCA2D();", "PCA"},
-    {"function writes at another photon", "function f(p) { p = p + 1; setPhotonParameter(p, 3, 1); } for (i = 0; i "
-                                        "< n; i++) f(i);", "setPhotonParameter"},
+    {"parameter of another photon set",
+     "for (i = 0; i < n; i++) { setPhotonParameter((i + 1) % n, 3, 1); "
+     "}",
+     "setPhotonParameter"},
+    {"parameter of a copy of the photon set",
+     "for (i = 0; i < n; i++) { p = i; setPhotonParameter(p, 3, 1); "
+     "}",
+     "setPhotonParameter"},
+    {"color of another photon set",
+     "for (i = 0; i < n; i++) { setPhotonColourEncoding(0, 1, 1, 1); "
+     "}",
+     "setPhotonColourEncoding"},
+    {"others' parameters read while set",
+     "for (i = 0; i < n; i++) { setPhotonParameter(i, 3, getPhotonParameter(0, "
+     "3)); }",
+     "getPhotonParameter"},
+    {"PCA without a reset",
+     "for (i = 0; i < n; i++) { pushPCA2D(i, 1); decomposePCA2D(); setPhotonParameter(i, 3, "
+     "getPCAEigenvalue(0)); }",
+     "reset"},
+    {"PCA reset on one path",
+     "for (i = 0; i < n; i++) { if (i > 3) resetPCA2D(); pushPCA2D(i, 1); "
+     "decomposePCA2D(); }",
+     "reset"},
+    {"decomposition read after the loop",
+     "for (i = 0; i < n; i++) { resetPCA2D(); pushPCA2D(i, 1); "
+     "decomposePCA2D(); } print(\"v\", getPCAEigenvalue(0));",
+     "decomposition"},
+    {"last PCA decomposed after the loop",
+     "for (i = 0; i < n; i++) { resetPCA2D(); pushPCA2D(i, 1); } "
+     "decomposePCA2D();",
+     "PCA"},
+    {"function writes at another photon",
+     "function f(p) { p = p + 1; setPhotonParameter(p, 3, 1); } for (i = 0; i "
+     "< n; i++) f(i);",
+     "setPhotonParameter"},
 };
 
 std::string name_case(const ::testing::TestParamInfo<Case>& info) {

@@ -28,7 +28,8 @@ public:
 
 private:
     std::uint32_t pick(std::uint32_t count) { return std::uint32_t(m_engine() % count); }
-    template <class... T> std::string any(T... choices) {
+    template <class... T>
+    std::string any(T... choices) {
         const std::string list[] = {choices...};
         return list[pick(sizeof...(choices))];
     }
@@ -40,8 +41,9 @@ private:
         if (!m_is_in_loop)
             return any(std::string("u0"), std::string("u1"), number(), std::string("fa[") + index(4) + "]",
                        std::string("getNumPhotons()"), std::string("ia[" + index(5) + "]"));
-        return any(std::string("u0"), number(), std::string("x"), std::string("y"), std::string("v"), std::string("i % 40"),
-                   std::string("getPhotonPosition(i, " + any("X", "Y", "Z") + ")"), std::string("getNumPathVertices(i)"),
+        return any(std::string("u0"), number(), std::string("x"), std::string("y"), std::string("v"),
+                   std::string("i % 40"), std::string("getPhotonPosition(i, " + any("X", "Y", "Z") + ")"),
+                   std::string("getNumPathVertices(i)"),
                    std::string("getPathInteraction(i, " + std::to_string(pick(4)) + ")"), std::string("u1"));
     }
     std::string index(std::uint32_t size) { return std::to_string(pick(size)); }

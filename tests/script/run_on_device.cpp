@@ -32,7 +32,9 @@ std::vector<glm::vec4> pack(const std::vector<float>& vectors, const std::functi
 }
 
 // World coordinates that survive being made relative and absolute again.
-float round_in_world(float x, int axis) { return float(x - ORIGIN[axis]) + ORIGIN[axis]; }
+float round_in_world(float x, int axis) {
+    return float(x - ORIGIN[axis]) + ORIGIN[axis];
+}
 
 PhotonMap upload(const HostPhotons& photons) {
     gpu::Device& device = test::get_device();
@@ -40,7 +42,9 @@ PhotonMap upload(const HostPhotons& photons) {
     map.count = photons.count;
     map.origin = {ORIGIN[0], ORIGIN[1], ORIGIN[2]};
     map.position_emitter = gpu::make_buffer(
-        device, pack(photons.positions, [&](std::size_t i) { return std::bit_cast<float>(photons.emitters[i]); }, true),
+        device,
+        pack(
+            photons.positions, [&](std::size_t i) { return std::bit_cast<float>(photons.emitters[i]); }, true),
         "positions");
     map.normal_index = gpu::make_buffer(device, pack(photons.normals, [](std::size_t) { return 0.0f; }), "normals");
     map.power_object = gpu::make_buffer(device, pack(photons.power, [](std::size_t) { return 0.0f; }), "power");
@@ -204,9 +208,8 @@ Ran run_on_device(const std::string& text, HostPhotons photons, const RunSetting
     PassRunner passes(test::get_device(), map, script->program, script->plan, script->passes, ran.outputs, settings,
                       find_rows, quiet);
     Interpreter interpreter(script->program, script->plan, photons, ran.outputs, settings, quiet);
-    interpreter.run([&](const PhotonLoop& loop, Interpreter& host, LoopReport& report) {
-        return passes.run(loop, host, report);
-    });
+    interpreter.run(
+        [&](const PhotonLoop& loop, Interpreter& host, LoopReport& report) { return passes.run(loop, host, report); });
     ran.outputs.columns.host_parameters(); // while their device lives
     ran.outputs.columns.host_colors();
     ran.outputs.columns.set_download({});
@@ -222,7 +225,8 @@ void expect_same(const std::string& text, const HostPhotons& photons, const Comp
     Diagnostics diagnostics;
     const Plan plan = plan_photon_loops(host.program, diagnostics);
     for (const PhotonLoop& loop : plan.loops)
-        EXPECT_EQ(loop.is_parallel, comparison.is_parallel.value_or(loop.is_parallel)) << format_diagnostics(host.program.source, loop.reasons);
+        EXPECT_EQ(loop.is_parallel, comparison.is_parallel.value_or(loop.is_parallel))
+            << format_diagnostics(host.program.source, loop.reasons);
     Ran device = run_on_device(text, photons, settings);
     for (const LoopReport& loop : device.outputs.loops)
         EXPECT_EQ(loop.is_parallel, comparison.is_parallel.value_or(loop.is_parallel)) << text;

@@ -16,8 +16,8 @@ HostPhotons make_random_photons(std::uint32_t count, std::uint32_t seed = 1, std
 Ran run_on_device(const std::string& text, HostPhotons photons, const RunSettings& settings = {});
 
 struct Comparison {
-    double ulps = 0;       // of numbers
-    double absolute = 0;   // or that near
+    double ulps = 0;                        // of numbers
+    double absolute = 0;                    // or that near
     std::optional<bool> is_parallel = true; // what all its photon loops must be; absent: either
 };
 

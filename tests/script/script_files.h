@@ -15,7 +15,8 @@ std::vector<std::filesystem::path> list_scripts(const std::string& folder); // "
 script::Source read_script(const std::filesystem::path& path);
 
 // A line "//!    ^^^^ E004 unknown function …" below the line it is about: the marks stand under the span, the message
-// is the whole message, or its beginning and "...". Without marks the place does not matter. "//! pad N" appends N blanks to the text.
+// is the whole message, or its beginning and "...". Without marks the place does not matter. "//! pad N" appends N
+// blanks to the text.
 struct ExpectedDiagnostic {
     std::uint32_t line = 0, column = 0, width = 0; // column 0: anywhere
     std::string code, message;

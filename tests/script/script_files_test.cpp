@@ -28,8 +28,7 @@ TEST(ScriptFiles, all_of_reject_are_rejected_as_they_say) {
         const std::vector<script::Diagnostic> diagnostics = compile_for_diagnostics(source);
         auto found = describe_found(source, diagnostics);
         const auto expected = read_expected(source);
-        ASSERT_EQ(found.size(), expected.size())
-            << path << '\n' << script::format_diagnostics(source, diagnostics);
+        ASSERT_EQ(found.size(), expected.size()) << path << '\n' << script::format_diagnostics(source, diagnostics);
         for (std::size_t i = 0; i < found.size(); ++i) {
             if (expected[i].column == 0)
                 found[i].line = found[i].column = found[i].width = 0;

@@ -60,8 +60,8 @@ std::string describe(const Program& program, Outcome& outcome) {
             text += ' ' + std::to_string(count);
     }
     for (const FaultReport& fault : outcome.outputs.faults)
-        text += '\n' + std::string(describe_fault(fault.site.kind)) + ' ' + std::to_string(fault.site.span.begin) + ' ' +
-                std::to_string(fault.count) + ' ' + std::to_string(fault.first_photon);
+        text += '\n' + std::string(describe_fault(fault.site.kind)) + ' ' + std::to_string(fault.site.span.begin) +
+                ' ' + std::to_string(fault.count) + ' ' + std::to_string(fault.first_photon);
     return text;
 }
 

@@ -47,7 +47,8 @@ TEST(ScriptTypes, comparisons_and_logic_are_integers) {
 }
 
 TEST(ScriptTypes, calls_keep_integers_where_they_can) {
-    EXPECT_EQ(find_type("x = min(1, 2) + max(1, 2) + abs(-3) + clamp(1, 2, 3) + sign(-2) + mod(7, 3);", "x"), "integer");
+    EXPECT_EQ(find_type("x = min(1, 2) + max(1, 2) + abs(-3) + clamp(1, 2, 3) + sign(-2) + mod(7, 3);", "x"),
+              "integer");
     EXPECT_EQ(find_type("x = min(1, 2.0);", "x"), "real");
     EXPECT_EQ(find_type("x = floor(0.5) + ceil(0.5) + round(0.5) + int(0.5);", "x"), "integer");
     EXPECT_EQ(find_type("x = sqrt(4);", "x"), "real");
@@ -105,7 +106,8 @@ TEST(ScriptTypes, least_integer_can_be_written) {
 }
 
 TEST(ScriptTypes, operands_of_arithmetic_have_one_type_after_checking) {
-    const Program program = check_accepted("float f; f = 1; n = 2; g = f * n + (n < f) - min(n, f) + getPhotonPosition(n, X);");
+    const Program program =
+        check_accepted("float f; f = 1; n = 2; g = f * n + (n < f) - min(n, f) + getPhotonPosition(n, X);");
     visit_expressions(program.body, [](const Expression& expression) {
         const bool is_logic =
             expression.operation == Operator::logical_and || expression.operation == Operator::logical_or;
