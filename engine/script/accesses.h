@@ -51,7 +51,7 @@ struct BodyAccesses {
     std::map<std::uint32_t, NameAccesses> names; // variables and accumulators (FlowNames)
     std::vector<const Expression*> calls;        // of builtins, in order
     std::map<const Statement*, ChoiceStatement> choices;
-    std::vector<Span> leaves; // breaks out of the photon loop
+    std::vector<Span> leaves; // breaks out of the photon loop, returns of the function around it
     bool has_unbounded_loop = false;
 };
 

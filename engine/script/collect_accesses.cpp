@@ -94,7 +94,9 @@ private:
         for (std::uint32_t parameter : function.parameters)
             write(parameter, e.span);
         const int depth = m_inner_loops;
+        ++m_calls;
         visit(function.body);
+        --m_calls;
         m_inner_loops = depth;
     }
 
@@ -149,6 +151,8 @@ private:
         case Statement::Kind::give:
             if (s.value)
                 visit(*s.value);
+            if (m_calls == 0) // of the function that the loop itself stands in
+                m_found.leaves.push_back(s.span);
             return;
         }
     }
@@ -157,7 +161,7 @@ private:
     FlowNames m_names;
     const std::set<const Statement*>& m_ordinary;
     BodyAccesses m_found;
-    int m_inner_loops = 0;
+    int m_inner_loops = 0, m_calls = 0;
 };
 
 } // namespace

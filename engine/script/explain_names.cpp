@@ -113,7 +113,7 @@ void explain_names(const LoopFacts& facts, PhotonLoop& loop) {
                  "use another variable; 'continue' goes on to the next photon"});
     }
     for (const Span span : facts.accesses.leaves)
-        loop.reasons.push_back({codes::LEAVES_LOOP, Severity::warning, span, SERIAL + "'break' ends it early",
+        loop.reasons.push_back({codes::LEAVES_LOOP, Severity::warning, span, SERIAL + "this ends it early",
                                 "use 'continue' to leave out a photon"});
     for (const auto& [variable, use] : loop.variables) {
         if (use.role != Role::carried)
