@@ -11,11 +11,13 @@ import pytest
 
 import photonloupe as pl
 from bar_maps import build_bar_oracle, compare_cells, measure_kept, select_straight, trace_bar
-from conftest import find_scene
+from conftest import SCENES, find_scene
 from generate import PRISM
 from stripes import LOST, SURVIVES, find_contrast, load_stripe
 
 COUNT = 100_000
+BETA_AGREEMENT = 5e-3  # the script reads t_beta from 4,096 bins
+CDF_AGREEMENT = 2e-3
 # From the lamp to below the base and above the apex.
 ANGLES = (-0.7, -0.05)
 # Corners in the order of PrismScene.list_corners: sides have the number of the corner before plus that of the corners.
@@ -108,3 +110,18 @@ def test_stripe_is_lost_with_primal_trajectories(emission: str) -> None:
 @pytest.mark.parametrize("emission", EMISSIONS)
 def test_stripe_survives_with_path_components(emission: str) -> None:
     assert measure_kept("prism", emission, "ppca") >= SURVIVES
+
+
+@pytest.mark.parametrize("parameters", ["primal_trajectory", "ppca"])
+def test_isotropy_script_finds_the_beta_of_the_measure(parameters: str) -> None:
+    photons = pl.trace_photons(pl.load_scene(find_scene("prism")), 20_000, seed=1, emission="random")
+    photons.run_script(SCENES / "scripts" / f"{parameters}.photon")
+    measured = pl.optimal_beta(photons)
+    run = photons.run_script(SCENES / "scripts" / "isotropy.photon", keep=True)
+    told = float(run.prints[-1].split()[-1])
+    assert told == pytest.approx(float(measured), rel=BETA_AGREEMENT)
+    # Both count the same photons in the same 64 bins, but for a few whose ratio rounds across a border.
+    counts = run.histograms["isotropy"].counts
+    assert len(counts) == len(measured.isotropy.histogram)
+    cdf = np.cumsum(counts) / counts.sum()
+    np.testing.assert_allclose(cdf, measured.isotropy.cdf, atol=CDF_AGREEMENT)
