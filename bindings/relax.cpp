@@ -45,7 +45,10 @@ RelaxSettings read_settings(const nb::dict& given) {
     settings.repel = parse_space(nb::cast<std::string>(given["repel"]));
     settings.beta = nb::cast<float>(given["beta"]);
     settings.search = nb::cast<std::string>(given["search"]) == "carried" ? RadiusSearch::carried : RadiusSearch::exact;
-    settings.tree = nb::cast<std::string>(given["tree"]) == "position" ? LayerTree::position : LayerTree::layered;
+    const auto tree = nb::cast<std::string>(given["tree"]);
+    settings.tree = tree == "position"  ? LayerTree::position
+                    : tree == "layered" ? LayerTree::layered
+                                        : LayerTree::automatic;
     settings.diffuse_flux = nb::cast<bool>(given["diffuse_flux"]);
     settings.period = nb::cast<std::array<float, 3>>(given["period"]);
     settings.constraint.descriptor = parse_descriptor(nb::cast<std::string>(given["descriptor"]));

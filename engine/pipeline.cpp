@@ -177,15 +177,24 @@ Relaxation Workbench::start_relaxation(Photons& photons, const Scene* scene, con
     const bool constrains = settings.constraint.descriptor != Descriptor::none;
     const bool needs_parameters =
         settings.repel == Space::parameter || (constrains && settings.constraint.space == Space::parameter);
+    const bool is_automatic = settings.tree == LayerTree::automatic;
     LayerTrees trees;
     if (needs_parameters)
         trees.parameters = &find_parameter_tree(photons, progress);
-    if (needs_parameters && settings.tree == LayerTree::layered)
+    if (needs_parameters &&
+        (settings.tree == LayerTree::layered || (is_automatic && settings.repel == Space::parameter)))
         trees.layered = find_layered_tree(photons, progress);
     RelaxSurface surface;
     if (scene)
         surface = {find_buffers(*scene), scene->origin};
-    return Relaxation(m_device, photons.map, tree, trees, settings, std::move(surface), progress);
+    try {
+        return Relaxation(m_device, photons.map, tree, trees, settings, surface, progress);
+    } catch (const CrowdError&) {
+        if (!needs_parameters || !is_automatic || trees.layered)
+            throw;
+    }
+    trees.layered = find_layered_tree(photons, progress);
+    return Relaxation(m_device, photons.map, tree, trees, settings, surface, progress);
 }
 
 gpu::Buffer Workbench::estimate_irradiance(Photons& photons, std::span<const glm::vec4> points,

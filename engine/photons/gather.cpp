@@ -152,8 +152,8 @@ std::vector<std::uint32_t> find_unanswered(gpu::Device& device, const KdTree& tr
 }
 
 [[noreturn]] void refuse_crowd(const std::string& stage) {
-    throw Error(stage + ": some photons reach more of the map than one workgroup can look through; are very many "
-                        "photons in one place, or of one layer spread over all of a large map?");
+    throw CrowdError(stage + ": some photons reach more of the map than one workgroup can look through; are very many "
+                             "photons in one place, or of one layer spread over all of a large map?");
 }
 
 } // namespace

@@ -39,8 +39,9 @@ enum class RadiusSearch : std::uint32_t {
 
 // What neighbours of a layer are sought in.
 enum class LayerTree : std::uint32_t {
-    position, // the tree over positions: nothing to build when parameters change
-    layered,  // one over positions and parameters
+    position,  // the tree over positions: nothing to build when parameters change
+    layered,   // one over positions and parameters
+    automatic, // layered where every step seeks in layers; else position, unless that reaches too much of the map
 };
 
 struct RelaxSettings {

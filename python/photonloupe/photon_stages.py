@@ -244,7 +244,8 @@ class PhotonStages(PhotonColumns):
         tree
             What neighbors of a layer are sought in: ``"layered"``, a tree over positions and parameters, or
             ``"position"``, which needs no building when parameters change; ``"auto"`` takes the former for
-            ``repel="parameter"``. The results are the same but for the last bits.
+            ``repel="parameter"``, and where layers lie too scattered for the latter. The results are the same but for
+            the last bits.
         progress
             True for a bar, or a callback ``(stage, fraction)`` that returns False to stop.
 

@@ -147,7 +147,7 @@ def check_settings(
         "diffuse_flux": bool(diffuse_flux),
         "search": check_choice("search", search, SEARCHES),
         "surface": check_choice("surface", surface, SURFACES),
-        "tree": _choose_tree(check_choice("tree", tree, TREES), repel),
+        "tree": check_choice("tree", tree, TREES),
         "period": _check_period(period),
     }
 
@@ -158,13 +158,6 @@ def _choose_beta(beta: Any, is_needed: bool, photons: PhotonMap, progress: Progr
         return 0.0
     checked = check_beta(beta, photons, progress)
     return checked if is_needed else 0.0
-
-
-def _choose_tree(tree: str, repel: str) -> str:
-    """Layered where every step seeks in layers; elsewhere its order costs steps more than it saves the constraint."""
-    if tree != "auto":
-        return tree
-    return "layered" if repel == "parameter" else "position"
 
 
 def _read_numbers(name: str, value: Any, count: int) -> tuple[Any, ...]:
