@@ -272,8 +272,7 @@ class PhotonMap(PhotonStages):
             device = open_device(self._device)._native
             self._native = _engine.photons_from_columns(device, columns, store)
             self._upload_parameters()
-            if "colors" in self._columns:
-                _engine.set_colors(device, self._native, np.ascontiguousarray(self._columns["colors"]))
+            self._upload_colors()
         return self._native
 
     def upload_columns(self, names: Sequence[str]) -> _engine.PhotonMap:
@@ -318,6 +317,14 @@ class PhotonMap(PhotonStages):
             periods = [parameter.period for parameter in self._parameters]
             _engine.set_parameters(open_device(self._device)._native, self._native, values, periods)
 
+    def _upload_colors(self) -> None:
+        """Show photons without a color, or without one of their parameters, in grey."""
+        if "colors" in self._columns and self._native is not None:
+            colors = np.array(self._columns["colors"], copy=True)
+            if self._parameters:
+                colors[~self.parameters_set] = np.nan
+            _engine.set_colors(open_device(self._device)._native, self._native, colors)
+
     def find_surface(self) -> Scene | None:
         """Return the scene whose surfaces the photons lie on; None for a map from arrays without one."""
         return self._find_scene() if self._scene is not None or "scene_path" in self._provenance else None
@@ -342,6 +349,7 @@ class PhotonMap(PhotonStages):
             relaxation=relaxation,
         )
         moved._upload_parameters()
+        moved._upload_colors()
         return moved
 
     def _find_scene(self) -> Scene:

@@ -138,6 +138,11 @@ def test_render_relaxes_with_the_parameters_of_the_script(
     assert read_json(capsys)["relaxation"]["constraint"] == "parameter"
 
 
+def test_render_shows_relaxed_photons_in_the_colors_of_the_script(folder: Path, tmp_path: Path) -> None:
+    options = ("--photons", 2_000, "--width", 8, "--height", 8, "--samples", 1, "--relax", 1, "--mode", "false-color")
+    assert run("render", RING, "-o", tmp_path / "a.png", "--script", folder / "good.photon", *options) == 0
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

@@ -238,6 +238,32 @@ def test_false_color_is_the_color_times_the_luminance(photons: pl.PhotonMap) -> 
     assert luminance.max() > 0
 
 
+def test_false_color_outlives_selection_saving_and_relaxation(photons: pl.PhotonMap, tmp_path: Path) -> None:
+    scene = pl.load_scene(SCENES / "ring" / "ring.gltf")
+    settings = {"camera": "top", "width": 16, "height": 16, "samples": 1, "k": 20, "mode": "false-color"}
+    photons.run_script(HEIGHT)  # photons left of the middle have no parameter: they are grey
+    expected = np.asarray(pl.render(scene, photons, **settings))  # type: ignore[arg-type]
+    assert not np.allclose(expected[..., 0], expected[..., 2])
+    photons.save(tmp_path / "map.zarr")
+    for same in (photons.select(np.arange(len(photons))), pl.load_photons(tmp_path / "map.zarr")):
+        np.testing.assert_array_equal(np.asarray(pl.render(scene, same, **settings)), expected)  # type: ignore[arg-type]
+    relaxed = photons.relax(steps=0)
+    np.testing.assert_allclose(np.asarray(pl.render(scene, relaxed, **settings)), expected, rtol=1e-5)  # type: ignore[arg-type]
+
+
+def test_photons_without_a_parameter_are_grey_though_they_were_given_a_color(photons: pl.PhotonMap) -> None:
+    scene = pl.load_scene(SCENES / "ring" / "ring.gltf")
+    settings = {"camera": "top", "width": 16, "height": 16, "samples": 1, "k": 20, "mode": "false-color"}
+    photons.run_script("""
+        declarePhotonParameter(3, 0, 1);
+        for (i = 0; i < getNumPhotons(); i++) setPhotonColourEncoding(i, 1, 0, 0);
+    """)
+    for shown in (photons, photons.select(np.arange(len(photons)))):
+        pixels = np.asarray(pl.render(scene, shown, **settings))  # type: ignore[arg-type]
+        assert pixels.max() > 0
+        np.testing.assert_array_equal(pixels[..., 0], pixels[..., 2])
+
+
 def test_the_next_script_runs_after_one_that_never_ends(photons: pl.PhotonMap) -> None:
     run = photons.run_script(
         "declarePhotonParameter(3, 0, 1);\n"
