@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "script/fault_sites.h"
+#include "script/lanes.h"
 #include "script/plan.h"
 
 namespace photonloupe::script {
@@ -19,16 +20,6 @@ struct UniformSlot {
     std::uint32_t variable = 0;
     std::uint32_t first_word = 0;
     std::optional<std::uint32_t> set_word;
-};
-
-// A reduced variable's slots in `lane_words`, one for each element. Before the first dispatch: identities
-// (find_identity), of photons 0xffffffff.
-struct LaneSlots {
-    std::uint32_t variable = 0;
-    VariableUse use;
-    std::uint32_t size = 1; // elements
-    std::uint32_t first_slot = 0;
-    std::optional<std::uint32_t> photon_slot; // least, greatest: the photons that gave them
 };
 
 // A place where photons may go wrong (`fault`), or run out of fuel (`loop`).
@@ -60,9 +51,9 @@ struct EmittedPass {
     std::vector<PassHistogram> histograms;
     std::uint32_t uniform_word_count = 0;
 
-    std::vector<LaneSlots> lanes;
-    std::optional<std::uint32_t> moments_2d_slot, moments_3d_slot; // first photon starts as 0xffffffff, the rest as 0
-    std::uint32_t slot_count = 0; // 0: nothing is reduced; else dispatch one group (ScriptPass)
+    // Of `lane_words`; before the first dispatch they hold make_identity(). No slots: nothing is reduced; else dispatch
+    // one group (ScriptPass).
+    LaneLayout lanes;
 
     std::vector<PassSite> sites;        // in the order of fault_words
     bool can_miss_photons = true;       // a photon in late_bits has left no trace; else the interpreter takes the loop

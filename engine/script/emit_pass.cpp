@@ -108,19 +108,20 @@ std::string Emitter::compose_declarations() const {
 // What a photon that does not complete must leave as it was.
 std::vector<Emitter::Register> Emitter::list_registers() const {
     std::vector<Register> registers;
-    for (const LaneSlots& slots : m_pass.lanes) {
+    for (const ReducedSlots& slots : m_pass.lanes.variables) {
         if (variable(slots.variable).array_size > 0)
             continue;
         const Type type = variable(slots.variable).type;
-        registers.push_back({type == Type::integer ? "int" : "float", m_names.at(slots.variable), slots.first_slot,
+        registers.push_back({type == Type::integer ? "int" : "float", m_names.at(slots.variable), slots.first,
                              type == Type::integer ? "load_integer" : "load_real", "store"});
-        if (slots.photon_slot)
-            registers.push_back({"uint", m_photon_names.at(slots.variable), *slots.photon_slot, "load_word", "store"});
+        if (is_choice(slots.role)) // behind its value
+            registers.push_back(
+                {"uint", m_photon_names.at(slots.variable), slots.first + slots.size, "load_word", "store"});
     }
-    if (m_pass.moments_2d_slot)
-        registers.push_back({"Moments", "moments_2d", *m_pass.moments_2d_slot, "load_moments", "store_moments"});
-    if (m_pass.moments_3d_slot)
-        registers.push_back({"Moments", "moments_3d", *m_pass.moments_3d_slot, "load_moments", "store_moments"});
+    if (m_pass.lanes.pca_2d)
+        registers.push_back({"Moments", "moments_2d", *m_pass.lanes.pca_2d, "load_moments", "store_moments"});
+    if (m_pass.lanes.pca_3d)
+        registers.push_back({"Moments", "moments_3d", *m_pass.lanes.pca_3d, "load_moments", "store_moments"});
     return registers;
 }
 
@@ -215,8 +216,8 @@ std::string Emitter::compose_main() const {
                        "    uint first_round = settings.first_round + group / settings.block_count * settings.rounds;\n"
                        "    uint lane = gl_LocalInvocationID.x;\n";
     const std::vector<Register> registers = list_registers();
-    if (m_pass.slot_count > 0)
-        text += "    lane_base = (block - settings.lane_block) * " + std::to_string(m_pass.slot_count) +
+    if (m_pass.lanes.slots > 0)
+        text += "    lane_base = (block - settings.lane_block) * " + std::to_string(m_pass.lanes.slots) +
                 "u * SCRIPT_LANES + lane;\n";
     for (const Register& r : registers)
         text += "    " + r.name + " = " + r.load + "(" + std::to_string(r.slot) + "u);\n";

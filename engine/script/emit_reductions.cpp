@@ -30,8 +30,8 @@ bool Emitter::emit_reduction(const Expression& e) {
                       {Type::integer, type});
     const std::string value = step->is_negated ? "-(" + codes[1].text + ")" : codes[1].text;
     if (step->index)
-        write_line(find_element_function(step->role) + std::to_string(m_lane_of.at(step->variable)->first_slot) +
-                   "u, " + codes[0].text + ", " + value + ");");
+        write_line(find_element_function(step->role) + std::to_string(m_lane_of.at(step->variable)->first) + "u, " +
+                   codes[0].text + ", " + value + ");");
     else if (step->role == Role::sum)
         write_line(name + (step->is_negated ? " -= " : " += ") + codes[1].text + ";");
     else
@@ -53,13 +53,12 @@ void Emitter::emit_scalar_choice(const ChoiceStatement& choice, const Code& cand
 }
 
 void Emitter::emit_element_choice(const ChoiceStatement& choice, const Code& place, const Code& candidate) {
-    const LaneSlots& slots = *m_lane_of.at(choice.decided);
-    open("if (choose_element(" + std::to_string(slots.first_slot) + "u, " + std::to_string(slots.size) + "u, " +
-         place.text + ", " + candidate.text + ", " + (choice.role == Role::least ? "true" : "false") + "))");
+    const ReducedSlots& slots = *m_lane_of.at(choice.decided);
+    open("if (choose_element(" + std::to_string(slots.first) + "u, " + std::to_string(slots.size) + "u, " + place.text +
+         ", " + candidate.text + ", " + (choice.role == Role::least ? "true" : "false") + "))");
     for (const Expression* assignment : choice.payload)
-        write_line("store(" + std::to_string(m_lane_of.at(assignment->variable)->first_slot) + "u + uint(" +
-                   place.text + "), " + emit_as(assignment->operands[0], variable(assignment->variable).type).text +
-                   ");");
+        write_line("store(" + std::to_string(m_lane_of.at(assignment->variable)->first) + "u + uint(" + place.text +
+                   "), " + emit_as(assignment->operands[0], variable(assignment->variable).type).text + ");");
     close();
     if (variable(choice.decided).type != Type::integer)
         return;

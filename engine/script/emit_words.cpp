@@ -6,13 +6,6 @@
 #include "shared/script.h"
 
 namespace photonloupe::script {
-namespace {
-
-bool is_choice(Role role) {
-    return role == Role::least || role == Role::greatest;
-}
-
-} // namespace
 
 void Emitter::name_variables() {
     m_taken = {"v_0"};
@@ -53,28 +46,14 @@ void Emitter::plan_words() {
 }
 
 void Emitter::plan_slots() {
-    const auto take_slots = [this](std::uint32_t count) {
-        return std::exchange(m_pass.slot_count, m_pass.slot_count + count);
-    };
-    for (const auto& [index, use] : m_loop.variables) {
-        if (!is_reduced(index))
-            continue;
-        const std::uint32_t size = std::max(1u, variable(index).array_size);
-        m_has_element_reductions |= variable(index).array_size > 0;
-        LaneSlots slots{index, use, size, take_slots(size), {}};
-        if (is_choice(use.role))
-            slots.photon_slot = take_slots(size);
-        m_pass.lanes.push_back(slots);
-    }
-    for (const LaneSlots& slots : m_pass.lanes)
+    m_pass.lanes = lay_out_lanes(m_program, m_loop);
+    for (const ReducedSlots& slots : m_pass.lanes.variables) {
+        m_has_element_reductions |= variable(slots.variable).array_size > 0;
         m_lane_of[slots.variable] = &slots;
-    if (m_loop.pca_2d == AccumulatorUse::reduction)
-        m_pass.moments_2d_slot = take_slots(shared::MOMENTS_WORDS);
-    if (m_loop.pca_3d == AccumulatorUse::reduction)
-        m_pass.moments_3d_slot = take_slots(shared::MOMENTS_WORDS);
-    if (m_pass.slot_count > 0)
+    }
+    if (m_pass.lanes.slots > 0)
         use("lanes");
-    if (m_pass.moments_2d_slot || m_pass.moments_3d_slot)
+    if (m_pass.lanes.pca_2d || m_pass.lanes.pca_3d)
         use("pca_lanes");
 }
 

@@ -172,7 +172,7 @@ private:
     std::map<std::uint32_t, std::string> m_set_flags;    // of variables that may be unset
     std::map<std::uint32_t, std::string> m_photon_names; // of least and greatest scalars: who gave them
     std::map<std::uint32_t, std::uint32_t> m_word_of;    // uniform variables
-    std::map<std::uint32_t, const LaneSlots*> m_lane_of;
+    std::map<std::uint32_t, const ReducedSlots*> m_lane_of;
     std::map<std::uint32_t, std::string> m_function_names;
     std::set<std::uint32_t> m_function_variables; // declared inside GLSL functions
     std::set<std::string> m_libraries;            // of shaders/script/

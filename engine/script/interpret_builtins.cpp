@@ -14,8 +14,6 @@ namespace {
 
 constexpr float NOT_A_NUMBER = std::numeric_limits<float>::quiet_NaN();
 constexpr std::size_t LONGEST_SIGNATURE = 6; // dot of two 3-D vectors
-constexpr std::uint32_t DEFAULT_BINS = 64;
-constexpr std::uint32_t MOST_BINS = 4096;
 
 std::string format_number(Type type, Number value) {
     char text[32];

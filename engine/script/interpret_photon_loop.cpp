@@ -49,8 +49,7 @@ Interpreter::Lane Interpreter::make_lane() const {
     Lane lane;
     for (const ReducedSlots& slots : m_layout.variables) {
         lane.values.emplace_back(slots.size, find_identity(slots.role, slots.type));
-        const bool is_choice = slots.role == Role::least || slots.role == Role::greatest;
-        lane.photons.emplace_back(is_choice ? slots.size : 0, NO_PHOTON);
+        lane.photons.emplace_back(is_choice(slots.role) ? slots.size : 0, NO_PHOTON);
     }
     return lane;
 }

@@ -13,10 +13,6 @@ namespace {
 
 static_assert(sizeof(Moments) == sizeof(std::uint32_t) * shared::MOMENTS_WORDS);
 
-bool is_choice(Role role) {
-    return role == Role::least || role == Role::greatest;
-}
-
 Number to_number(std::uint32_t word) {
     return std::bit_cast<Number>(word);
 }
@@ -104,6 +100,10 @@ Moments append_moments(const Moments& before, const Moments& total) {
 }
 
 } // namespace
+
+bool is_choice(Role role) {
+    return role == Role::least || role == Role::greatest;
+}
 
 LaneLayout lay_out_lanes(const Program& program, const PhotonLoop& loop) {
     LaneLayout layout;

@@ -13,6 +13,9 @@
 
 namespace photonloupe::script {
 
+// Whether the role keeps the photon that gave its value.
+bool is_choice(Role role);
+
 // A reduced variable's slots: `size` values, and behind them, for a least or greatest, `size` photons that gave them.
 struct ReducedSlots {
     std::uint32_t variable = 0;

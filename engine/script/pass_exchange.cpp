@@ -12,8 +12,6 @@ namespace photonloupe::script {
 namespace {
 
 constexpr std::uint32_t WORD_BITS = 32;
-constexpr std::uint32_t DEFAULT_BINS = 64;
-constexpr std::uint32_t MOST_BINS = 4096;
 
 std::uint32_t to_word(float value) {
     return std::bit_cast<std::uint32_t>(value);
@@ -153,8 +151,8 @@ void PassRunner::collect(Work& work) {
     collect_histograms(work);
     if (work.loop.prints)
         collect_prints(work);
-    if (work.pass.slot_count > 0)
-        bring_back(work.layout, combine_blocks(work.layout, work.blocks), work.interpreter.state());
+    if (work.pass.lanes.slots > 0)
+        bring_back(work.pass.lanes, combine_blocks(work.pass.lanes, work.blocks), work.interpreter.state());
     const auto spent = std::chrono::steady_clock::now() - work.start;
     work.report.milliseconds += std::chrono::duration<double, std::milli>(spent).count();
 }

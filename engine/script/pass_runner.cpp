@@ -30,17 +30,6 @@ std::uint32_t count_blocks(std::uint64_t photons) {
     return static_cast<std::uint32_t>((photons + REDUCTION_BLOCK - 1) / REDUCTION_BLOCK);
 }
 
-LaneLayout take_layout(const Program& program, const EmittedPass& pass) {
-    LaneLayout layout;
-    for (const LaneSlots& lane : pass.lanes)
-        layout.variables.push_back({lane.variable, lane.use.role, program.variables[lane.variable].type,
-                                    lane.first_slot, lane.size, lane.use.of});
-    layout.pca_2d = pass.moments_2d_slot;
-    layout.pca_3d = pass.moments_3d_slot;
-    layout.slots = pass.slot_count;
-    return layout;
-}
-
 } // namespace
 
 gpu::KernelSource name_kernel(const EmittedPass& pass) {
@@ -57,7 +46,6 @@ PassRunner::PassRunner(gpu::Device& device, const PhotonMap& photons, const Prog
 bool PassRunner::run(const PhotonLoop& loop, Interpreter& interpreter, LoopReport& report) {
     const std::size_t index = static_cast<std::size_t>(&loop - m_plan.loops.data());
     Work work{loop, m_passes[index], interpreter, report};
-    work.layout = take_layout(m_program, work.pass);
     m_columns.prepare();
     const bool may_repeat = loop.sets_parameters && loop.reads_own_parameters;
     if (may_repeat && !m_columns.parameters().is_empty()) {
@@ -123,8 +111,8 @@ void PassRunner::restore_columns(Work& work) const {
 // Blocks whose lanes and rows fit together.
 std::uint32_t PassRunner::choose_batch(const Work& work) const {
     std::uint64_t blocks = count_blocks(m_photons.count);
-    if (work.pass.slot_count > 0)
-        blocks = std::min(blocks, MOST_LANE_WORDS / (std::uint64_t{work.pass.slot_count} * REDUCTION_LANES));
+    if (work.pass.lanes.slots > 0)
+        blocks = std::min(blocks, MOST_LANE_WORDS / (std::uint64_t{work.pass.lanes.slots} * REDUCTION_LANES));
     std::uint64_t row = 0;
     for (const PassQuery& query : work.pass.queries)
         row += query.query->is_at_loop_photon ? work.uniforms[query.first_word + 1] : 0;
@@ -174,7 +162,7 @@ std::uint32_t PassRunner::measure_rounds(Work& work) const {
     work.status_words = make_words(m_device, std::vector<std::uint32_t>(shared::STATUS_WORDS), "script status");
     if (status[shared::STATUS_FLAGS])
         return 1;
-    const std::uint32_t most = work.pass.slot_count > 0 ? shared::SCRIPT_ROUNDS : MOST_FREE_ROUNDS;
+    const std::uint32_t most = work.pass.lanes.slots > 0 ? shared::SCRIPT_ROUNDS : MOST_FREE_ROUNDS;
     return std::clamp(COMFORTABLE_TURNS / turns, 1u, most);
 }
 
@@ -203,8 +191,8 @@ void PassRunner::check_limits(Work& work) {
 
 // Dispatches a batch.
 void PassRunner::run_batch(Work& work, std::uint32_t first_block, std::uint32_t block_count) {
-    if (work.pass.slot_count > 0) {
-        const std::vector<std::uint32_t> identity = make_identity(work.layout);
+    if (work.pass.lanes.slots > 0) {
+        const std::vector<std::uint32_t> identity = make_identity(work.pass.lanes);
         std::vector<std::uint32_t> words;
         words.reserve(std::size_t{block_count} * identity.size() * REDUCTION_LANES);
         for (std::uint32_t block = 0; block < block_count; ++block)
@@ -212,7 +200,7 @@ void PassRunner::run_batch(Work& work, std::uint32_t first_block, std::uint32_t 
                 words.insert(words.end(), REDUCTION_LANES, word);
         work.lane_words = make_words(m_device, words, "script reductions");
     }
-    const bool reduces = work.pass.slot_count > 0;
+    const bool reduces = work.pass.lanes.slots > 0;
     const std::uint32_t dispatches = reduces ? (shared::SCRIPT_ROUNDS + work.rounds - 1) / work.rounds : 1;
     const std::uint32_t groups = reduces ? 1 : (shared::SCRIPT_ROUNDS + work.rounds - 1) / work.rounds;
     shared::ScriptPass push = work.push(m_photons, m_outputs, m_settings);
@@ -254,19 +242,19 @@ void PassRunner::run_blocks(Work& work) {
         run_batch(work, first, count);
         if (work.has_late_photons && (work.rounds > 1 || !can_hand_over(work)))
             return;
-        if (work.pass.slot_count > 0) {
-            const std::size_t size = std::size_t{work.pass.slot_count} * REDUCTION_LANES;
+        if (work.pass.lanes.slots > 0) {
+            const std::size_t size = std::size_t{work.pass.lanes.slots} * REDUCTION_LANES;
             const std::vector<std::uint32_t> words = work.lane_words.read<std::uint32_t>(count * size);
             for (std::uint32_t block = 0; block < count; ++block)
                 work.blocks.push_back(
-                    combine_lanes(work.layout, std::span(words).subspan(block * size, size), REDUCTION_LANES));
+                    combine_lanes(work.pass.lanes, std::span(words).subspan(block * size, size), REDUCTION_LANES));
         }
     }
 }
 
 // Whether the interpreter can take single photons: where something is reduced in their order it takes the whole loop.
 bool PassRunner::can_hand_over(const Work& work) const {
-    return work.pass.slot_count == 0 && work.pass.can_miss_photons;
+    return work.pass.lanes.slots == 0 && work.pass.can_miss_photons;
 }
 
 std::vector<std::uint32_t> PassRunner::list_late_photons(const Work& work) const {

@@ -20,11 +20,9 @@ struct PassRunner::Work {
     gpu::Buffer neighbor_rows;
     gpu::Buffer kept_parameters; // from before, when the pass reads what it writes
 
-    LaneLayout layout;
     std::vector<std::vector<std::uint32_t>> blocks; // totals
     std::uint32_t rounds = 1;
     bool has_late_photons = false;
-    double milliseconds = 0;
     std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
 
     shared::ScriptPass push(const PhotonMap& photons, const RunOutputs& outputs, const RunSettings& settings) const {

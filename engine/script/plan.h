@@ -70,6 +70,8 @@ struct Plan {
 };
 
 constexpr std::int32_t DEFAULT_NEIGHBORS = 50;
+constexpr std::uint32_t DEFAULT_BINS = 64; // of a histogram
+constexpr std::uint32_t MOST_BINS = 4096;
 
 // The expression, or what a never assigned parameter was given for it; conversions to float are looked through.
 const Expression& resolve_given(const PhotonLoop& loop, const Expression& expression);

@@ -3,24 +3,15 @@
 #include "script/reductions.h"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
-#include <cmath>
 #include <limits>
+
+#include "script/reference_math.h"
 
 namespace photonloupe::script {
 namespace {
 
-constexpr float QUIET_NAN = std::numeric_limits<float>::quiet_NaN();
 constexpr float INF = std::numeric_limits<float>::infinity();
-
-bool is_minus_zero(float x) {
-    return std::bit_cast<std::uint32_t>(x) == 0x80000000u;
-}
-
-std::int32_t add_wrapping(std::int32_t a, std::int32_t b) {
-    return std::bit_cast<std::int32_t>(std::bit_cast<std::uint32_t>(a) + std::bit_cast<std::uint32_t>(b));
-}
 
 template <class T>
 bool beats(Role role, T challenger, T holder) {
@@ -35,18 +26,6 @@ void add_products(float (&products)[6], const float (&u)[3], const float (&v)[3]
 }
 
 } // namespace
-
-float minimum_of(float a, float b) {
-    if (std::isnan(a) || std::isnan(b))
-        return QUIET_NAN;
-    return a < b || (a == b && is_minus_zero(a)) ? a : b;
-}
-
-float maximum_of(float a, float b) {
-    if (std::isnan(a) || std::isnan(b))
-        return QUIET_NAN;
-    return a > b || (a == b && is_minus_zero(b)) ? a : b;
-}
 
 Number find_identity(Role role, Type type) {
     const bool is_real = type == Type::real;
@@ -66,9 +45,9 @@ Number combine(Role role, Type type, Number a, Number b) {
     const bool is_real = type == Type::real;
     switch (role) {
     case Role::minimum:
-        return is_real ? make_real(minimum_of(a.real, b.real)) : make_integer(std::min(a.integer, b.integer));
+        return is_real ? make_real(compute_minimum(a.real, b.real)) : make_integer(std::min(a.integer, b.integer));
     case Role::maximum:
-        return is_real ? make_real(maximum_of(a.real, b.real)) : make_integer(std::max(a.integer, b.integer));
+        return is_real ? make_real(compute_maximum(a.real, b.real)) : make_integer(std::max(a.integer, b.integer));
     default:
         assert(role == Role::sum);
         return is_real ? make_real(a.real + b.real) : make_integer(add_wrapping(a.integer, b.integer));

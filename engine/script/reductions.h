@@ -11,11 +11,12 @@
 #include <span>
 
 #include "script/plan.h"
+#include "shared/script.h"
 
 namespace photonloupe::script {
 
-constexpr std::uint32_t REDUCTION_BLOCK = 4096;
-constexpr std::uint32_t REDUCTION_LANES = 64;
+constexpr std::uint32_t REDUCTION_BLOCK = shared::SCRIPT_BLOCK;
+constexpr std::uint32_t REDUCTION_LANES = shared::SCRIPT_LANES;
 
 // One scalar's (or array element's) running value as 32-bit words, as passes and interpreter keep it.
 union Number {
@@ -34,10 +35,6 @@ inline Number make_integer(std::int32_t value) {
     number.integer = value;
     return number;
 }
-
-// min and max as the language has them: any NaN gives NaN, -0 < +0.
-float minimum_of(float a, float b);
-float maximum_of(float a, float b);
 
 Number find_identity(Role role, Type type);               // 0; +inf or INT_MAX; -inf or INT_MIN
 Number combine(Role role, Type type, Number a, Number b); // sum, minimum, maximum

@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "script/reference_math.h"
+
 namespace photonloupe::script {
 namespace {
 
@@ -31,18 +33,18 @@ Number integer(std::int32_t value) {
 
 TEST(Reductions, minimum_and_maximum_spread_nan) {
     for (float other : {0.0f, INF, -INF, QUIET_NAN}) {
-        EXPECT_TRUE(std::isnan(minimum_of(QUIET_NAN, other)));
-        EXPECT_TRUE(std::isnan(minimum_of(other, QUIET_NAN)));
-        EXPECT_TRUE(std::isnan(maximum_of(QUIET_NAN, other)));
-        EXPECT_TRUE(std::isnan(maximum_of(other, QUIET_NAN)));
+        EXPECT_TRUE(std::isnan(compute_minimum(QUIET_NAN, other)));
+        EXPECT_TRUE(std::isnan(compute_minimum(other, QUIET_NAN)));
+        EXPECT_TRUE(std::isnan(compute_maximum(QUIET_NAN, other)));
+        EXPECT_TRUE(std::isnan(compute_maximum(other, QUIET_NAN)));
     }
 }
 
 TEST(Reductions, minus_zero_is_below_zero) {
-    EXPECT_TRUE(std::signbit(minimum_of(0.0f, -0.0f)));
-    EXPECT_TRUE(std::signbit(minimum_of(-0.0f, 0.0f)));
-    EXPECT_FALSE(std::signbit(maximum_of(0.0f, -0.0f)));
-    EXPECT_FALSE(std::signbit(maximum_of(-0.0f, 0.0f)));
+    EXPECT_TRUE(std::signbit(compute_minimum(0.0f, -0.0f)));
+    EXPECT_TRUE(std::signbit(compute_minimum(-0.0f, 0.0f)));
+    EXPECT_FALSE(std::signbit(compute_maximum(0.0f, -0.0f)));
+    EXPECT_FALSE(std::signbit(compute_maximum(-0.0f, 0.0f)));
 }
 
 TEST(Reductions, identities_change_nothing) {
