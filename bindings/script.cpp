@@ -159,7 +159,6 @@ script::RunSettings read_settings(const nb::dict& given) {
     settings.fuel = nb::cast<std::uint32_t>(given["fuel"]);
     settings.most_exhausted = nb::cast<std::uint32_t>(given["exhausted"]);
     settings.most_seconds = nb::cast<double>(given["seconds"]);
-    settings.keep = nb::cast<bool>(given["keep"]);
     return settings;
 }
 

@@ -33,9 +33,6 @@ public:
     // False: the device could not, nothing happened, and the interpreter must run the loop.
     bool run(const PhotonLoop& loop, Interpreter& interpreter, LoopReport& report);
 
-    // The device's columns, with what passes wrote last.
-    DeviceColumns& columns() { return m_columns; }
-
 private:
     struct Work; // one loop's run
 

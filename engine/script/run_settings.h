@@ -14,7 +14,6 @@ struct RunSettings {
     std::uint32_t fuel = 1'000'000;       // turns of loops without a provable bound: a photon's, and uniform code's
     std::uint32_t most_exhausted = 1000;  // photons that may run out before a photon loop stops
     double most_seconds = 60;             // a photon loop may take
-    bool keep = false;                    // parameters and colors that the script does not set
 };
 
 } // namespace photonloupe::script
