@@ -14,8 +14,6 @@ namespace {
 
 // More bins change the measured cost of our scenes by under one percent.
 constexpr int BIN_COUNT = 16;
-// Up to this many triangles the surface-area cost alone decides whether a leaf is made.
-constexpr std::uint32_t TARGET_LEAF_TRIANGLES = 4;
 // A step down loads two nodes (four vec4), a triangle test three vec4; memory loads dominate: about equal.
 constexpr double TRAVERSAL_COST = 1.0;
 

@@ -23,7 +23,7 @@ struct Counter {
 
 class LoopBounder {
 public:
-    explicit LoopBounder(Draft& draft) : m_draft(draft), m_program(draft.program), m_intervals(draft) {}
+    explicit LoopBounder(Draft& draft) : m_program(draft.program), m_intervals(draft) {}
 
     void bound() { walk(m_program.body, 1); }
 
@@ -169,7 +169,6 @@ private:
         return true;
     }
 
-    Draft& m_draft;
     Program& m_program;
     IntervalFinder m_intervals;
 };
