@@ -6,10 +6,8 @@
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
-#include <deque>
 
-#include "gpu/buffer_impl.h"
-#include "gpu/device_impl.h"
+#include "gpu/commands_impl.h"
 
 namespace photonloupe::gpu {
 namespace {
@@ -17,8 +15,6 @@ namespace {
 // A batch that takes this long is stuck: chunks aim at a twentieth of a second, the driver's first compilation of a
 // kernel takes under a second.
 constexpr double DEADLINE_SECONDS = 60.0;
-// Long enough to amortise a submission (80 µs), short enough to stop within 0.2 s of Ctrl-C.
-constexpr double CHUNK_MILLISECONDS = 40.0;
 constexpr double CHUNK_GROWTH_LIMIT = 8.0;
 // Invocations a workgroup has at least where each item of a chunk is one invocation.
 constexpr std::uint64_t SMALLEST_GROUP = 32;
@@ -33,30 +29,6 @@ double read_deadline_seconds() {
 }
 
 } // namespace
-
-struct Commands::Impl {
-    Device& device;
-    std::string stage;
-    VkCommandBuffer commands = VK_NULL_HANDLE;
-    VkFence fence = VK_NULL_HANDLE;
-    VkQueryPool queries = VK_NULL_HANDLE;
-    std::vector<VkDescriptorPool> pools;
-    std::uint32_t sets_left = 0;
-    std::deque<Buffer> address_blocks;
-    std::vector<PipelineVariant*> cold;
-    std::uint64_t dispatch_count = 0;
-    std::unique_lock<std::recursive_mutex> lock;
-
-    Impl(Device& owner, std::string name) : device(owner), stage(std::move(name)), lock(owner.impl().mutex) {}
-    ~Impl();
-    Device::Impl& gpu() { return device.impl(); }
-    void begin();
-    void add_barrier();
-    VkDescriptorSet allocate_set(VkDescriptorSetLayout layout);
-    VkDescriptorSet write_set(const Kernel& kernel, const std::vector<const Buffer*>& buffers,
-                              std::uint64_t by_address);
-    void wait_for_fence();
-};
 
 Commands::Impl::~Impl() {
     if (!gpu().lost_because.empty())
@@ -305,7 +277,7 @@ void run_in_chunks(Device& device, const std::string& stage, std::uint64_t total
         first += count;
         if (milliseconds <= 0)
             continue;
-        const double growth = std::min(CHUNK_MILLISECONDS / milliseconds, CHUNK_GROWTH_LIMIT);
+        const double growth = std::min(device.chunk_milliseconds() / milliseconds, CHUNK_GROWTH_LIMIT);
         const double granules = std::max(1.0, growth * static_cast<double>(count) / static_cast<double>(granule));
         chunk = granule * static_cast<std::uint64_t>(std::min(granules, 1e9));
     }

@@ -12,6 +12,7 @@
 #include "gpu/buffer.h"
 #include "gpu/device.h"
 #include "gpu/kernel_source.h"
+#include "gpu/texture.h"
 
 namespace photonloupe::gpu {
 
@@ -24,6 +25,7 @@ struct Binding {
 // One batch of work. Steps run in the order recorded, each seeing what the one before wrote.
 class Commands {
 public:
+    struct Impl;
     // `stage` names the work in timings, messages and deadlines.
     Commands(Device& device, std::string stage);
     ~Commands();
@@ -41,20 +43,27 @@ public:
               std::uint64_t target_offset, std::uint64_t size_bytes); // staging, inside engine/gpu
     void fill(const Buffer& target, std::uint32_t value);
 
+    // RGBA8 pixels, row 0 at the top, into a texture and out of it.
+    void copy(const Buffer& pixels, Texture& target);
+    void copy(Texture& source, const Buffer& pixels);
+    // Clears the texture and draws; `record` gets a VkCommandBuffer within dynamic rendering.
+    void draw(Texture& target, const std::function<void(void* command_buffer)>& record);
+
     // Submits and waits. Throws DeviceError naming the stage when the deadline passes or the device is lost,
     // and with the layer's message when validation speaks. Returns milliseconds on the device.
     double run();
 
+    Impl& impl() const { return *m_impl; }
+
 private:
-    struct Impl;
     void record_dispatch(const KernelSource& kernel, std::initializer_list<Binding> bindings, const void* push,
                          std::uint32_t push_bytes, std::uint64_t invocations);
     std::unique_ptr<Impl> m_impl;
 };
 
 // Runs `record(commands, first, count)` over [0, total) in chunks that are multiples of `granule` and aim at
-// CHUNK_MILLISECONDS each and never exceed `largest` (0: what one dispatch of an invocation per item allows), reporting
-// progress between them. How work is cut never changes its result.
+// the device's chunk_milliseconds() each and never exceed `largest` (0: what one dispatch of an invocation per item
+// allows), reporting progress between them. How work is cut never changes its result.
 void run_in_chunks(Device& device, const std::string& stage, std::uint64_t total, std::uint64_t granule,
                    const Progress& progress,
                    const std::function<void(Commands&, std::uint64_t first, std::uint64_t count)>& record,

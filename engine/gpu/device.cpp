@@ -53,15 +53,39 @@ Features read_features(VkPhysicalDevice device) {
     return features;
 }
 
-std::uint32_t find_compute_queue(VkPhysicalDevice device) {
+std::uint32_t find_queue(VkPhysicalDevice device, VkQueueFlags flags) {
     std::uint32_t count = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
     std::vector<VkQueueFamilyProperties> families(count);
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
     for (std::uint32_t index = 0; index < count; ++index)
-        if (families[index].queueFlags & VK_QUEUE_COMPUTE_BIT)
+        if ((families[index].queueFlags & flags) == flags)
             return index;
     return UINT32_MAX;
+}
+
+// One that draws the interface too, where there is one.
+std::uint32_t find_compute_queue(VkPhysicalDevice device) {
+    const std::uint32_t drawing = find_queue(device, VK_QUEUE_COMPUTE_BIT | VK_QUEUE_GRAPHICS_BIT);
+    return drawing != UINT32_MAX ? drawing : find_queue(device, VK_QUEUE_COMPUTE_BIT);
+}
+
+bool has_extension(VkPhysicalDevice device, const char* name) {
+    std::uint32_t count = 0;
+    check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr),
+          "vkEnumerateDeviceExtensionProperties");
+    std::vector<VkExtensionProperties> there(count);
+    check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, there.data()),
+          "vkEnumerateDeviceExtensionProperties");
+    return std::any_of(there.begin(), there.end(), [&](const VkExtensionProperties& extension) {
+        return std::strcmp(extension.extensionName, name) == 0;
+    });
+}
+
+// Whether the interface can be drawn: graphics on the compute queue, into images that need no render pass.
+bool can_draw(VkPhysicalDevice device) {
+    return find_queue(device, VK_QUEUE_COMPUTE_BIT | VK_QUEUE_GRAPHICS_BIT) != UINT32_MAX &&
+           has_extension(device, VK_KHR_DYNAMIC_RENDERING_EXTENSION_NAME);
 }
 
 // The first thing this device lacks, or empty.
@@ -238,6 +262,17 @@ void create_logical_device(Device::Impl& impl) {
     VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
     v12.bufferDeviceAddress = VK_TRUE;
     v12.pNext = impl.fixes_subgroup_size ? &subgroups : nullptr;
+    VkPhysicalDeviceDynamicRenderingFeaturesKHR drawing{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES_KHR, v12.pNext, VK_TRUE};
+    std::vector<const char*> extensions;
+    if (impl.limits.can_draw) {
+        v12.pNext = &drawing;
+        extensions.push_back(VK_KHR_DYNAMIC_RENDERING_EXTENSION_NAME);
+    }
+    if (impl.limits.can_draw && has_extension(impl.physical, VK_KHR_SWAPCHAIN_EXTENSION_NAME)) {
+        extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+        impl.limits.can_present = true;
+    }
     VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &v12};
     features.features.robustBufferAccess = supported.base.features.robustBufferAccess;
     const float priority = 1.0f;
@@ -248,6 +283,8 @@ void create_logical_device(Device::Impl& impl) {
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features};
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
+    info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
     check(vkCreateDevice(impl.physical, &info, nullptr, &impl.device), "vkCreateDevice");
     volkLoadDeviceTable(&impl.table, impl.device);
     impl.table.vkGetDeviceQueue(impl.device, impl.queue_family, 0, &impl.queue);
@@ -283,6 +320,7 @@ Device::Device(const std::string& selector) : m_impl(std::make_unique<Impl>()) {
     m_impl->physical = m_impl->instance->find_physical_devices()[static_cast<std::size_t>(index)];
     m_impl->queue_family = find_compute_queue(m_impl->physical);
     read_limits(*m_impl);
+    m_impl->limits.can_draw = can_draw(m_impl->physical);
     choose_memory_types(*m_impl);
     create_logical_device(*m_impl);
     m_impl->pipeline_cache = load_pipeline_cache(*m_impl);
@@ -326,7 +364,8 @@ std::uint64_t Device::allocated_bytes() const {
 }
 
 std::uint64_t Device::available_bytes() const {
-    std::uint64_t available = m_impl->info.memory_bytes - std::min(m_impl->info.memory_bytes, m_impl->allocated_bytes);
+    const std::uint64_t allocated = m_impl->allocated_bytes;
+    std::uint64_t available = m_impl->info.memory_bytes - std::min(m_impl->info.memory_bytes, allocated);
     const std::uint64_t host = read_available_host_bytes();
     if (m_impl->info.type == "software" && host > 0)
         available = host; // its heap is the host's memory, whatever size it reports
@@ -334,18 +373,27 @@ std::uint64_t Device::available_bytes() const {
         available = std::min(available, host);
     if (const char* cap = std::getenv("PHOTONLOUPE_MEMORY_LIMIT")) { // bytes; lets a shared machine keep its share
         const std::uint64_t limit = std::strtoull(cap, nullptr, 10);
-        available = std::min(available, limit - std::min(limit, m_impl->allocated_bytes));
+        available = std::min(available, limit - std::min(limit, allocated));
     }
     return static_cast<std::uint64_t>(static_cast<double>(available) * USABLE_MEMORY_SHARE);
 }
 
+void Device::set_chunk_milliseconds(double milliseconds) {
+    m_impl->chunk_milliseconds = milliseconds;
+}
+double Device::chunk_milliseconds() const {
+    return m_impl->chunk_milliseconds;
+}
+
 void Device::record_timing(const std::string& stage, double milliseconds, std::uint64_t dispatch_count) {
+    std::lock_guard lock(m_impl->mutex);
     StageTiming& timing = m_impl->timings[stage];
     timing.milliseconds += milliseconds;
     timing.dispatch_count += dispatch_count;
 }
 
 std::map<std::string, StageTiming> Device::take_timings() {
+    std::lock_guard lock(m_impl->mutex);
     return std::exchange(m_impl->timings, {});
 }
 

@@ -34,6 +34,8 @@ struct DeviceLimits {
     std::uint64_t shared_memory_bytes = 0;  // of one workgroup
     std::uint32_t max_group_count = 0;      // workgroups in x
     bool host_visible = false;              // buffers are read and written in place, without staging
+    bool can_draw = false;                  // the interface
+    bool can_present = false;               // in a window
 };
 
 // Time one stage has spent on the device since the timings were last taken.
@@ -61,6 +63,10 @@ public:
     // Bytes of this device's buffers, and what could still be allocated.
     std::uint64_t allocated_bytes() const;
     std::uint64_t available_bytes() const;
+
+    // How long a chunk of long work aims to take: shorter while someone watches and frames wait for the same queue.
+    void set_chunk_milliseconds(double milliseconds);
+    double chunk_milliseconds() const;
 
     // The compiled kernel for a source, built at first request and kept.
     Kernel& find_kernel(const KernelSource& source);

@@ -54,6 +54,22 @@ bool has_layer(const char* name) {
                        [&](const VkLayerProperties& layer) { return std::strcmp(layer.layerName, name) == 0; });
 }
 
+// What a window needs; absent ones are left out, and opening a window then says so.
+std::vector<const char*> find_surface_extensions() {
+    std::uint32_t count = 0;
+    check(vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr), "vkEnumerateInstanceExtensionProperties");
+    std::vector<VkExtensionProperties> there(count);
+    check(vkEnumerateInstanceExtensionProperties(nullptr, &count, there.data()),
+          "vkEnumerateInstanceExtensionProperties");
+    std::vector<const char*> names;
+    for (const char* name : {"VK_KHR_surface", "VK_KHR_xcb_surface", "VK_KHR_xlib_surface", "VK_KHR_wayland_surface"})
+        if (std::any_of(there.begin(), there.end(), [&](const VkExtensionProperties& extension) {
+                return std::strcmp(extension.extensionName, name) == 0;
+            }))
+            names.push_back(name);
+    return names;
+}
+
 VkDebugUtilsMessengerCreateInfoEXT describe_messenger(ValidationLog& log) {
     VkDebugUtilsMessengerCreateInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
     info.messageSeverity =
@@ -92,19 +108,20 @@ Instance::Instance() : m_validation_mode(read_validation_mode()) {
     VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
     features.enabledValidationFeatureCount = 1;
     features.pEnabledValidationFeatures = &sync;
-    const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+    std::vector<const char*> extensions = find_surface_extensions();
     if (!m_validation_mode.empty()) {
         if (!has_layer(VALIDATION_LAYER))
             throw DeviceError("validation was asked for but the layer is not installed; install "
                               "vulkan-validationlayers or unset PHOTONLOUPE_VALIDATION");
         info.enabledLayerCount = 1;
         info.ppEnabledLayerNames = &VALIDATION_LAYER;
-        info.enabledExtensionCount = 1;
-        info.ppEnabledExtensionNames = &extension;
+        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
         info.pNext = &messenger;
         if (m_validation_mode == "sync")
             messenger.pNext = &features;
     }
+    info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
     check(vkCreateInstance(&info, nullptr, &m_instance), "vkCreateInstance");
     volkLoadInstanceOnly(m_instance);
     if (!m_validation_mode.empty()) {

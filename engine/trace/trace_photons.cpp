@@ -12,9 +12,9 @@ namespace photonloupe {
 namespace {
 
 constexpr std::uint32_t FIRST_CHUNK = 1u << 14;
-// Chunks are halved above and doubled below: one dispatch stays near 50 ms.
-constexpr double SLOW_CHUNK_MILLISECONDS = 80.0;
-constexpr double FAST_CHUNK_MILLISECONDS = 25.0;
+// Chunks are halved above this multiple of the device's chunk time, and doubled below that one.
+constexpr double SLOW_CHUNK = 2.0;
+constexpr double FAST_CHUNK = 0.625;
 // A scene whose first 64 blocks store nothing is given up (METHODS §1), and so is one that needs more than 2^30.
 constexpr std::uint64_t EMPTY_BLOCK_LIMIT = 64;
 constexpr std::uint64_t EMISSION_LIMIT = 1ull << 30;
@@ -115,9 +115,10 @@ void Tracer::require_memory() const {
 void Tracer::choose_chunk(double milliseconds) {
     const std::uint32_t largest = find_largest_chunk(m_device.limits(), m_slot_count);
     std::uint32_t size = m_scratch.size == 0 ? std::min(FIRST_CHUNK, largest) : m_scratch.size;
-    if (milliseconds > SLOW_CHUNK_MILLISECONDS)
+    const double aim = m_device.chunk_milliseconds();
+    if (milliseconds > SLOW_CHUNK * aim)
         size = std::max(size / 2, shared::EMISSION_BLOCK);
-    else if (milliseconds > 0 && milliseconds < FAST_CHUNK_MILLISECONDS && m_report.emitted % (2 * size) == 0)
+    else if (milliseconds > 0 && milliseconds < FAST_CHUNK * aim && m_report.emitted % (2 * size) == 0)
         size = std::min(2 * size, largest); // aligned, so that the lane order keeps its meaning
     if (size != m_scratch.size) {
         m_scratch = {}; // freed before the larger one is asked for

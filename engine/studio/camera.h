@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The view's camera: orbits a target; projects and aims.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "scene/scene.h"
+#include "shared/render.h"
+#include "studio/state.h"
+
+namespace photonloupe::studio {
+
+// Where the camera stands, as renderers take it.
+struct CameraPose {
+    std::array<double, 3> position{}, target{};
+    std::array<double, 3> right{}, up{}, backward{}; // orthonormal
+    double yfov = 0.7;
+};
+
+CameraPose find_pose(const CameraState& camera);
+
+// For kernels; `origin` is the world place of their (0, 0, 0).
+shared::CameraFrame frame_view(const CameraPose& pose, const std::array<double, 3>& origin, std::uint32_t width,
+                               std::uint32_t height);
+
+// Pixels from the image's top left corner, and the depth along the view; behind the camera: depth ≤ 0.
+glm::vec3 project(const shared::CameraFrame& frame, glm::vec3 point, std::uint32_t width, std::uint32_t height);
+// Unit direction through a pixel.
+glm::vec3 aim(const shared::CameraFrame& frame, glm::vec2 pixel, std::uint32_t width, std::uint32_t height);
+
+// So that a box fills the view; keeps the angles.
+void fit_box(CameraState& camera, const Bounds& box);
+// Straight at a surface of that normal.
+void face_normal(CameraState& camera, glm::vec3 normal);
+
+void orbit(CameraState& camera, double right, double up); // radians
+void pan(CameraState& camera, double right, double up);   // shares of the view's height
+void zoom(CameraState& camera, double steps);             // positive: nearer
+
+} // namespace photonloupe::studio

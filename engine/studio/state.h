@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything a user chooses, as a value: what undo goes back to and what a session saves.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace photonloupe::studio {
+
+// Photon ids, ascending; shared, so that states are cheap to copy. Null: nothing is selected.
+using Ids = std::shared_ptr<const std::vector<std::uint32_t>>;
+
+struct TraceState {
+    std::string scene; // path; empty: none
+    std::string map;   // path of a saved map that takes the place of tracing; empty: none
+    std::uint32_t photons = 50'000;
+    std::uint32_t seed = 1;
+    std::string emission = "sobol";
+    std::string store = "caustic";
+};
+
+struct ScriptState {
+    std::string path;                     // where the text came from; empty: nowhere
+    std::string text;                     // in the editor
+    std::string ran;                      // the last text that ran; empty: none
+    std::map<std::string, double> values; // of exposed variables, where they differ from the script's own
+};
+
+enum class ViewMode { points = 1, voronoi, kd_tree, colored_points, render, colored_render, map };
+
+// Looks at `target` from `distance`; yaw and pitch in radians, about y and up from the horizon.
+struct CameraState {
+    bool is_set = false; // false: fit what there is
+    std::array<double, 3> target{};
+    double yaw = 0.6, pitch = 0.7, distance = 1, yfov = 0.7;
+};
+
+struct ViewState {
+    ViewMode mode = ViewMode::points;
+    CameraState camera;
+    bool shows_relaxed = false; // where there are relaxed photons
+    bool is_split = false;      // traced photons left of the line, relaxed ones right of it
+    float split_at = 0.5f;
+    float point_size = 2.0f; // pixels
+    float brightness = 0.0f; // stops
+    int tree_depth = -1;     // -1: leaves
+    std::string map_column = "w_v";
+};
+
+struct LoupeState {
+    std::uint32_t k = 250;
+    std::string space = "world"; // world, parameter, constrained
+    float beta = 3.0f;
+    std::string lock = "none"; // none: the range follows the cursor's photon; pin: that of the last pin; brushes
+    bool has_point = false;
+    std::array<double, 3> point{}; // where the cursor is, metres
+    std::vector<std::uint32_t> pins;
+    bool shows_paths = false;
+    bool shows_drift = true;
+    std::vector<std::string> numbers = {"position", "parameters", "flux", "signature", "eigenvalues", "w_v"};
+};
+
+struct AxisState {
+    std::string name;
+    float low = 0, high = 0; // equal: the column's own range
+    bool is_flipped = false;
+    bool is_closed = false;
+    std::uint32_t periods = 1;
+    std::vector<std::array<float, 2>> brushes;
+};
+
+struct ParallelState {
+    std::vector<AxisState> axes;
+    float tension = 1.0f;
+    std::string source = "loupe";   // loupe, all, selection
+    std::string color = "encoding"; // or a column
+    bool shows_density = true;
+};
+
+struct ScatterState {
+    std::string x = "x", y = "z";
+    bool is_polar = false;
+    std::string source = "all";
+    bool shows_pair = false; // the loupe's photons in world and parameter space side by side
+};
+
+struct HistogramState {
+    std::string column = "power";
+    std::uint32_t bins = 64;
+    float threshold = 0.0f;
+    bool shows_cdf = true;
+};
+
+struct RelaxChoices {
+    std::uint32_t steps = 20;
+    std::uint32_t neighbors = 20;
+    std::string constraint = "auto"; // auto, world, parameter
+    std::string descriptor = "tensor";
+    std::string repel = "world";
+    float beta = 10.0f;
+    bool has_auto_beta = false;
+    std::array<float, 2> over_relaxation{1.0f, 1.0f};
+    float limit = 0.3f; // 0: none
+    std::uint32_t constraint_neighbors = 50;
+    std::string search = "exact";
+    bool diffuse_flux = false;
+    bool operator==(const RelaxChoices&) const = default;
+};
+
+struct RelaxState {
+    RelaxChoices choices;     // as they stand in the panel
+    RelaxChoices used;        // of the steps that were made
+    std::uint32_t made = 0;   // steps
+    bool is_measured = false; // the constraint is known, even of no steps
+};
+
+struct ImageState {
+    float exposure = 0.0f;     // stops
+    std::string tone = "srgb"; // srgb, filmic
+    float overlay = 0.5f;      // strength of false colors
+    std::uint32_t k = 50;
+    std::uint32_t samples = 1;
+    std::string reference;       // path of a picture to compare with
+    std::string shows = "image"; // image, reference, error
+};
+
+struct StudioState {
+    TraceState trace;
+    ScriptState script;
+    ViewState view;
+    LoupeState loupe;
+    ParallelState parallel;
+    ScatterState scatter;
+    HistogramState histogram;
+    RelaxState relax;
+    ImageState image;
+    Ids selection;
+    std::map<std::string, Ids> named; // selections by name
+};
+
+} // namespace photonloupe::studio

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// Compares what the state asks for with what has been done.
+#include "studio/work.h"
+
+#include <nlohmann/json.hpp>
+
+#include "studio/camera.h"
+
+namespace photonloupe::studio {
+namespace {
+
+using Settings = nlohmann::json;
+
+Settings describe_trace(const TraceState& trace) {
+    if (!trace.map.empty())
+        return {{"map", trace.map}};
+    return {{"scene", trace.scene},
+            {"photons", trace.photons},
+            {"seed", trace.seed},
+            {"emission", trace.emission},
+            {"store", trace.store}};
+}
+
+Settings describe_relax(const RelaxChoices& relax, bool has_parameters) {
+    const bool uses_parameters = relax.constraint == "parameter" || (relax.constraint == "auto" && has_parameters);
+    return {{"steps", relax.steps},
+            {"neighbors", relax.neighbors},
+            {"constraint", uses_parameters ? "parameter" : "world"},
+            {"descriptor", relax.descriptor},
+            {"repel", relax.repel},
+            {"beta", relax.has_auto_beta ? Settings("auto") : Settings(relax.beta)},
+            {"over_relaxation", relax.over_relaxation},
+            {"limit", relax.limit > 0 ? Settings(relax.limit) : Settings(nullptr)},
+            {"constraint_neighbors", relax.constraint_neighbors},
+            {"search", relax.search},
+            {"diffuse_flux", relax.diffuse_flux}};
+}
+
+Settings describe_camera(const CameraPose& pose) {
+    return {{"position", pose.position}, {"right", pose.right},   {"up", pose.up},
+            {"backward", pose.backward}, {"target", pose.target}, {"yfov", pose.yfov}};
+}
+
+// Adds a job unless it has been done; returns true when it has to be done first.
+bool ask(std::optional<Job>& job, const DoneWork& done, const char* kind, const std::string& key, Settings settings) {
+    const auto found = done.find(kind);
+    if (found != done.end() && found->second == key)
+        return false;
+    job = Job{kind, key, settings.dump(-1, ' ', false, Settings::error_handler_t::replace)};
+    return true;
+}
+
+} // namespace
+
+std::optional<Job> plan_work(const StudioState& state, const CameraPose& camera, const Wanted& wanted,
+                             bool has_parameters, std::uint64_t photons_version, const DoneWork& done) {
+    std::optional<Job> job;
+    const Settings trace = describe_trace(state.trace);
+    const std::string trace_key = trace.dump();
+    if (state.trace.scene.empty() && state.trace.map.empty())
+        return job;
+    if (ask(job, done, state.trace.map.empty() ? "trace" : "map", trace_key, trace))
+        return job;
+    // Without a script the photons are as they were traced.
+    std::string script_key = trace_key;
+    Settings script{{"text", ""}};
+    if (!state.script.ran.empty()) {
+        script = {{"text", state.script.ran}, {"path", state.script.path}, {"values", state.script.values}};
+        script_key += script.dump(-1, ' ', false, Settings::error_handler_t::replace);
+    }
+    if (ask(job, done, "script", script_key, script))
+        return job;
+    if (state.relax.made > 0 || state.relax.is_measured) {
+        Settings relax = describe_relax(state.relax.used, has_parameters);
+        const std::string settings_key = script_key + relax.dump();
+        relax["made"] = state.relax.made;
+        relax["settings_key"] = settings_key;
+        if (ask(job, done, "relax", settings_key + std::to_string(state.relax.made), relax))
+            return job;
+    }
+    const std::string version = std::to_string(photons_version);
+    if (wanted.isotropy && has_parameters && ask(job, done, "isotropy", script_key, Settings::object()))
+        return job;
+    if (wanted.image && !state.trace.scene.empty()) {
+        Settings render{{"camera", describe_camera(camera)},
+                        {"k", state.image.k},
+                        {"samples", state.image.samples},
+                        {"relaxed", state.view.shows_relaxed}};
+        if (ask(job, done, "render", version + render.dump(), render))
+            return job;
+        const Settings reference{{"path", state.image.reference}};
+        if (!state.image.reference.empty() &&
+            ask(job, done, "reference", version + render.dump() + reference.dump(), reference))
+            return job;
+    }
+    return job;
+}
+
+} // namespace photonloupe::studio

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which work the state asks for that has not been done: what runs in the background, in the order of the main flow.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "studio/state.h"
+
+namespace photonloupe::studio {
+
+struct CameraPose;
+
+// A piece of work for whoever runs the stages. `settings` is JSON.
+struct Job {
+    std::string kind; // scene, trace, map, script, relax, isotropy, render, reference
+    std::string key;  // of all that decides its result
+    std::string settings;
+};
+
+// What has been done, or has failed and waits for a change: job kind to key.
+using DoneWork = std::map<std::string, std::string>;
+
+// What else may be asked for beside the state's own stages.
+struct Wanted {
+    bool image = false;    // a rendered picture
+    bool isotropy = false; // of the parameters
+};
+
+// The first stage that is not up to date, or nothing. `has_parameters` tells what a script or map left.
+std::optional<Job> plan_work(const StudioState& state, const CameraPose& camera, const Wanted& wanted,
+                             bool has_parameters, std::uint64_t photons_version, const DoneWork& done);
+
+} // namespace photonloupe::studio

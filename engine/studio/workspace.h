@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// What all panels share: the state, its results, what is cached of them, and how changes are made.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "inspect/columns.h"
+#include "inspect/loupe.h"
+#include "studio/camera.h"
+#include "studio/fonts.h"
+#include "studio/history.h"
+#include "studio/results.h"
+#include "studio/script_document.h"
+#include "studio/show_pixels.h"
+#include "studio/work.h"
+
+namespace photonloupe::studio {
+
+// Where a widget was drawn last, pixels of the window.
+struct WidgetBox {
+    float x = 0, y = 0, width = 0, height = 0;
+};
+
+// The work in progress, as the status line shows it.
+struct Activity {
+    bool is_running = false;
+    bool is_stopping = false;
+    std::string stage;
+    double fraction = 0;
+};
+
+struct Workspace {
+    gpu::Device& device;
+    Workbench& bench;
+    StudioState state;
+    History history;
+    Results results;
+    DoneWork done;
+    Activity activity;
+    ScriptDocument script;
+    Fonts fonts;
+    PixelShow pixels; // images of panels
+    bool is_offscreen = false; // fixed clock, no timings shown, nothing blinks
+    float scale = 1.0f;        // of the monitor
+    std::uint64_t frame = 0;
+    double frame_milliseconds = 0;
+    double loupe_milliseconds = 0;
+    std::string message;       // the last thing that went wrong, or right; empty: none
+    bool message_is_error = false;
+    bool wants_render = false; // the Image panel's
+    bool wants_isotropy = false;
+    bool shows_keys = false;
+    bool is_settled = true;    // views have nothing left to refine
+
+    std::optional<inspect::LoupeView> loupe; // what it sees now
+    std::string loupe_missing;               // why it sees nothing
+    std::map<std::uint32_t, inspect::LoupeView> pinned;
+    std::uint64_t loupe_version = 0; // rises when `loupe` changes
+    std::uint64_t selection_version = 0;
+
+    std::map<std::string, WidgetBox> widgets;
+    std::vector<std::string> requests; // of files and sessions: for whoever owns them ("save_session PATH" …)
+
+    // The photons in view: relaxed ones where they are wanted and there. Null: none yet.
+    Photons* shown() const;
+    Photons* shown(bool relaxed) const;
+    bool has_relaxed() const { return results.relaxed != nullptr; }
+    bool has_parameters() const { return results.photons && results.photons->map.parameters.has_value(); }
+
+    // A command: goes into the history under its name, then changes the state.
+    template <class Change>
+    void change(const std::string& name, const Change& make) {
+        history.record(name, state);
+        make(state);
+    }
+    void say(std::string text, bool is_error = false) {
+        message = std::move(text);
+        message_is_error = is_error;
+    }
+
+    // A column of the photons in view, computed once. Throws Error as find_column does.
+    const inspect::Column& find_column(const std::string& name);
+    // The same, or null with what to do in `missing`.
+    const inspect::Column* seek_column(const std::string& name, std::string& missing);
+    const std::vector<inspect::ColumnInfo>& list_columns();
+    // sRGB colors of photons, by id: the script's encoding, or a column through a color map. Empty: grey.
+    const std::vector<std::uint32_t>& find_colors(const std::string& name);
+
+    // Selects; null: nothing. Not a command: `change` calls it.
+    void select(Ids ids);
+    // The photons a view plots: "loupe", "all" or "selection". Null with `all`.
+    Ids find_source(const std::string& source);
+
+    void drop_caches(); // after photons changed
+
+private:
+    struct ColumnKey {
+        const Photons* photons;
+        std::string name;
+        auto operator<=>(const ColumnKey&) const = default;
+    };
+    std::map<ColumnKey, inspect::Column> m_columns;
+    std::map<ColumnKey, std::vector<std::uint32_t>> m_colors;
+    std::map<const Photons*, std::vector<inspect::ColumnInfo>> m_infos;
+};
+
+} // namespace photonloupe::studio
