@@ -52,6 +52,20 @@ nb::ndarray<nb::numpy, T, nb::ndim<3>> own_pixels(std::vector<T>&& values, std::
     return nb::ndarray<nb::numpy, T, nb::ndim<3>>(kept->data(), 3, shape, owner);
 }
 
+// A column of a shared state that lives as long as either of its owners; `tail` is the shape of one row.
+template <class Owner, class T>
+nb::ndarray<nb::numpy, const T> share_array(const std::shared_ptr<const Owner>& shared, const std::vector<T>& values,
+                                            const std::vector<std::size_t>& tail) {
+    auto* kept = new std::shared_ptr<const Owner>(shared);
+    nb::capsule owner(kept, [](void* pointer) noexcept { delete static_cast<std::shared_ptr<const Owner>*>(pointer); });
+    std::size_t width = 1;
+    for (const std::size_t length : tail)
+        width *= length;
+    std::vector<std::size_t> shape{values.size() / width};
+    shape.insert(shape.end(), tail.begin(), tail.end());
+    return nb::ndarray<nb::numpy, const T>(values.data(), shape.size(), shape.data(), owner);
+}
+
 // Long work runs without the GIL; between chunks the callback is asked and signals are taken.
 class PythonProgress {
 public:

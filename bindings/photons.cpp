@@ -152,11 +152,31 @@ nb::tuple find_near(OpenDevice& open, Photons& photons, std::optional<Points> po
 }
 
 void set_parameters(OpenDevice& open, Photons& photons,
-                    nb::ndarray<nb::numpy, const float, nb::ndim<2>, nb::c_contig> values,
-                    const std::vector<float>& periods) {
+                    nb::ndarray<nb::numpy, const float, nb::ndim<2>, nb::c_contig> values, const nb::list& rows) {
+    std::vector<ParameterAxis> axes;
+    for (nb::handle row : rows)
+        axes.push_back({nb::cast<std::string>(row["name"]), nb::cast<float>(row["low"]), nb::cast<float>(row["high"]),
+                        nb::cast<float>(row["period"])});
     photons.forget_parameters();
-    photons.map.parameters = make_parameters(open.device, {values.data(), values.size()},
-                                             static_cast<std::uint32_t>(values.shape(1)), periods);
+    photons.map.parameters = make_parameters(open.device, {values.data(), values.size()}, std::move(axes));
+}
+
+// What a map from a file, or a part of another map, was relaxed with; columns that are absent stay empty.
+void set_state(Photons& photons, const nb::dict& columns) {
+    auto state = std::make_shared<RelaxedState>();
+    const auto take = [&](const char* name, std::vector<float>& target) {
+        if (!columns.contains(name))
+            return;
+        const std::span<const float> values = take_span<float>(columns, name);
+        target.assign(values.begin(), values.end());
+    };
+    take("drift", state->drift);
+    take("pressure", state->pressure);
+    take("constraint_basis", state->basis);
+    take("constraint_weights", state->weights);
+    take("gradient", state->gradient);
+    take("one_sidedness", state->one_sidedness);
+    photons.state = std::move(state);
 }
 
 // Columns that are absent stay empty.
@@ -238,7 +258,10 @@ void bind_photons(nb::module_& module) {
         "The k nearest photons of points, or of photons by id (n,); exactly one is not None. query: space, beta, "
         "center, low, high.");
     module.def("set_parameters", &set_parameters, nb::arg("device"), nb::arg("photons"), nb::arg("values"),
-               nb::arg("periods"), "Replace a map's parameters (n, m); a period of 0: it does not wrap.");
+               nb::arg("axes"),
+               "Replace a map's parameters (n, m); of each: name, low, high, and a period, 0 where it does not wrap.");
+    module.def("set_state", &set_state, nb::arg("photons"), nb::arg("columns"),
+               "Give a map the checked columns that a relaxation left.");
     module.def("set_paths", &set_paths, nb::arg("device"), nb::arg("photons"), nb::arg("columns"),
                "Give a map the checked path columns of its photons.");
     module.def("set_colors", &set_colors, nb::arg("device"), nb::arg("photons"), nb::arg("values"),

@@ -92,17 +92,18 @@ nb::tuple read(OpenRelaxation& open) {
     photons->map = std::move(columns.map);
     photons->report = open.photons->report;
     photons->store = open.photons->store;
-    nb::dict state;
-    state["drift"] = own_array(std::move(columns.drift), 3);
-    state["pressure"] = own_array(std::move(columns.pressure));
+    const auto state = std::make_shared<const RelaxedState>(std::move(columns.state));
+    photons->state = state;
+    nb::dict arrays;
+    arrays["drift"] = share_array(state, state->drift, {3});
+    arrays["pressure"] = share_array(state, state->pressure, {});
     if (columns.has_constraint) {
-        const std::size_t count = columns.weights.size() / 2;
-        state["constraint_basis"] = own_pixels(std::move(columns.basis), count, 2);
-        state["constraint_weights"] = own_array(std::move(columns.weights), 2);
-        state["gradient"] = own_array(std::move(columns.gradient), 3);
-        state["one_sidedness"] = own_array(std::move(columns.one_sidedness));
+        arrays["constraint_basis"] = share_array(state, state->basis, {2, 3});
+        arrays["constraint_weights"] = share_array(state, state->weights, {2});
+        arrays["gradient"] = share_array(state, state->gradient, {3});
+        arrays["one_sidedness"] = share_array(state, state->one_sidedness, {});
     }
-    return nb::make_tuple(photons, state, columns.off_surface_count);
+    return nb::make_tuple(photons, arrays, columns.off_surface_count);
 }
 
 nb::tuple measure(OpenDevice& open, Matrix<const double, 2> points, std::array<double, 2> radius, nb::object progress) {

@@ -23,11 +23,11 @@ void set_script_parameters(gpu::Device& device, Photons& photons, std::span<cons
     photons.map.parameters.reset();
     if (declared.empty())
         return;
-    std::vector<float> periods;
+    std::vector<ParameterAxis> axes;
     for (const script::DeclaredParameter& parameter : declared)
-        periods.push_back(parameter.is_periodic ? parameter.high - parameter.low : 0.0f);
-    photons.map.parameters =
-        make_parameters(device, values, static_cast<std::uint32_t>(declared.size()), std::move(periods));
+        axes.push_back({parameter.name, parameter.low, parameter.high,
+                        parameter.is_periodic ? parameter.high - parameter.low : 0.0f});
+    photons.map.parameters = make_parameters(device, values, std::move(axes));
 }
 
 } // namespace
@@ -49,8 +49,10 @@ std::shared_ptr<Photons> Workbench::trace_photons(const Scene& scene, const Trac
         if (std::shared_ptr<Photons> traced = m_traced.lock())
             return traced;
     TracedPhotons traced = photonloupe::trace_photons(m_device, scene, *find_buffers(scene), settings, progress);
-    auto photons = std::make_shared<Photons>(
-        Photons{std::move(traced.map), traced.report, settings.store, std::nullopt, std::nullopt, nullptr});
+    auto photons = std::make_shared<Photons>();
+    photons->map = std::move(traced.map);
+    photons->report = traced.report;
+    photons->store = settings.store;
     m_traced = photons;
     m_traced_key = key;
     return photons;
@@ -90,10 +92,8 @@ Neighbors Workbench::find_layer_neighbors_of(Photons& photons, std::span<const s
                                              float beta, const Progress& progress) {
     const std::vector<float> radii2 =
         find_radii2_of(m_device, photons.map, find_parameter_tree(photons, progress), ids, k, progress);
-    const KdTree& tree = find_tree(photons, progress);
-    const Layers layers = order_parameters(m_device, photons.map, tree, {}, 1.0f, progress);
-    return find_in_layers(m_device, photons.map, tree, layers, ask_layers_of(photons.map, ids, radii2, beta), k, true,
-                          progress);
+    return find_in_layers(m_device, photons.map, find_tree(photons, progress), find_tree_layers(photons, progress),
+                          ask_layers_of(photons.map, ids, radii2, beta), k, true, progress);
 }
 
 Neighbors Workbench::find_layer_neighbors(Photons& photons, std::span<const glm::vec4> points, std::uint32_t center,
@@ -101,18 +101,15 @@ Neighbors Workbench::find_layer_neighbors(Photons& photons, std::span<const glm:
     const std::uint32_t ids[] = {center};
     const std::vector<float> radii2 =
         find_radii2_of(m_device, photons.map, find_parameter_tree(photons, progress), ids, k, progress);
-    const KdTree& tree = find_tree(photons, progress);
-    const Layers layers = order_parameters(m_device, photons.map, tree, {}, 1.0f, progress);
-    return find_in_layers(m_device, photons.map, tree, layers,
+    return find_in_layers(m_device, photons.map, find_tree(photons, progress), find_tree_layers(photons, progress),
                           ask_layer_at(photons.map, points, center, radii2[0], beta), k, false, progress);
 }
 
 Neighbors Workbench::find_range_neighbors(Photons& photons, std::span<const glm::vec4> points,
                                           std::span<const float> low, std::span<const float> high, std::uint32_t k,
                                           const Progress& progress) {
-    const KdTree& tree = find_tree(photons, progress);
-    const Layers layers = order_parameters(m_device, photons.map, tree, {}, 1.0f, progress);
-    return find_in_layers(m_device, photons.map, tree, layers, ask_ranges_at(points, low, high), k, false, progress);
+    return find_in_layers(m_device, photons.map, find_tree(photons, progress), find_tree_layers(photons, progress),
+                          ask_ranges_at(points, low, high), k, false, progress);
 }
 
 std::vector<float> Workbench::measure_isotropy(Photons& photons, std::uint32_t k, const Progress& progress) {
@@ -123,6 +120,12 @@ const ParameterTree& Workbench::find_parameter_tree(Photons& photons, const Prog
     if (!photons.parameter_tree)
         photons.parameter_tree = build_parameter_tree(m_device, photons.map, progress);
     return *photons.parameter_tree;
+}
+
+const Layers& Workbench::find_tree_layers(Photons& photons, const Progress& progress) {
+    if (!photons.tree_layers)
+        photons.tree_layers = order_parameters(m_device, photons.map, find_tree(photons, progress), {}, 1.0f, progress);
+    return *photons.tree_layers;
 }
 
 std::shared_ptr<const LayeredTree> Workbench::find_layered_tree(Photons& photons, const Progress& progress) {

@@ -25,9 +25,12 @@ struct Photons {
     std::optional<KdTree> tree;
     std::optional<ParameterTree> parameter_tree;
     std::shared_ptr<const LayeredTree> layered_tree; // relaxations keep it
+    std::optional<Layers> tree_layers;               // the parameters in the order of `tree`
+    std::shared_ptr<const RelaxedState> state;       // null: neither constrained nor relaxed
 
     // Trees of parameters that are no longer the map's.
     void forget_parameters() {
+        tree_layers.reset();
         parameter_tree.reset();
         layered_tree.reset();
     }
@@ -63,6 +66,9 @@ public:
 
     const ParameterTree& find_parameter_tree(Photons& photons, const Progress& progress = {});
 
+    // Of the tree over positions, without reach.
+    const Layers& find_tree_layers(Photons& photons, const Progress& progress = {});
+
     std::shared_ptr<const LayeredTree> find_layered_tree(Photons& photons, const Progress& progress = {});
 
     // Axis ratios of photons in world space around their k neighbours in parameter space, by id ([SJL15] eq. 5).
@@ -84,6 +90,9 @@ public:
     // `photons` may be null for direct light alone.
     Image render(const Scene& scene, Photons* photons, const RenderSettings& settings, const Progress& progress);
 
+    // The scene on the device, kept until another one is asked for.
+    std::shared_ptr<const SceneBuffers> find_buffers(const Scene& scene);
+
     gpu::Device& device() { return m_device; }
 
 private:
@@ -91,7 +100,6 @@ private:
                                  std::span<const std::uint32_t> ids, std::uint32_t k, float beta,
                                  const Progress& progress);
     void take_script_columns(Photons& photons, const script::ScriptRun& run);
-    std::shared_ptr<const SceneBuffers> find_buffers(const Scene& scene);
 
     gpu::Device& m_device;
     std::string m_scene_hash;                            // of m_scene_buffers

@@ -78,9 +78,11 @@ std::vector<std::uint32_t> order_by_extent(const Extents& extents) {
 
 } // namespace
 
-ParameterColumns make_parameters(gpu::Device& device, std::span<const float> values, std::uint32_t count,
-                                 std::vector<float> periods) {
-    ParameterColumns columns{count, {}, std::move(periods)};
+ParameterColumns make_parameters(gpu::Device& device, std::span<const float> values, std::vector<ParameterAxis> axes) {
+    const auto count = static_cast<std::uint32_t>(axes.size());
+    ParameterColumns columns{count, {}, {}, std::move(axes)};
+    for (const ParameterAxis& axis : columns.axes)
+        columns.periods.push_back(axis.period);
     const std::size_t photons = values.size() / count, rows = columns.count_rows();
     std::vector<glm::vec4> packed(photons * rows, glm::vec4(0.0f));
     for (std::size_t photon = 0; photon < photons; ++photon) {

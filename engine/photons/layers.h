@@ -27,9 +27,8 @@ struct Layers {
     const gpu::Buffer* ranges = nullptr; // of the nodes of a layered tree
 };
 
-// Packs `count` values a photon and uploads them; a photon with a NaN among them has none at all.
-ParameterColumns make_parameters(gpu::Device& device, std::span<const float> values, std::uint32_t count,
-                                 std::vector<float> periods);
+// Packs a value per axis and photon and uploads them; a photon with a NaN among them has none at all.
+ParameterColumns make_parameters(gpu::Device& device, std::span<const float> values, std::vector<ParameterAxis> axes);
 
 // Squared distance of packed rows, in the kernels' order of operations; NaN where either photon has none.
 float measure_parameters(std::uint32_t count, std::span<const float> periods, std::span<const glm::vec4> a,

@@ -21,11 +21,19 @@ struct PathColumns {
     gpu::Buffer normals;  // xyz unit, facing the arriving light; w scatter (0 mirror-like … 1 diffuse)
 };
 
+// One dimension of parameter space, as it was declared: what views show of it.
+struct ParameterAxis {
+    std::string name;
+    float low = 0, high = 0; // bounds; they never scale distances
+    float period = 0;        // 0: it does not wrap
+};
+
 // The photons' parameters (METHODS §4), as a script or a user set them.
 struct ParameterColumns {
-    std::uint32_t count = 0;    // 1–13
-    gpu::Buffer values;         // count_rows() vec4s a photon, by id; NaN: the photon has none
-    std::vector<float> periods; // per parameter; 0: it does not wrap
+    std::uint32_t count = 0;         // 1–13
+    gpu::Buffer values;              // count_rows() vec4s a photon, by id; NaN: the photon has none
+    std::vector<float> periods;      // per parameter; 0: it does not wrap
+    std::vector<ParameterAxis> axes; // per parameter
     std::uint32_t count_rows() const { return (count + 3) / 4; }
     bool is_periodic() const {
         return std::any_of(periods.begin(), periods.end(), [](float period) { return period > 0; });

@@ -313,12 +313,12 @@ RelaxedColumns Relaxation::read() const {
     std::vector<glm::vec4> placed(count);
     const std::vector<glm::vec4> fluxes =
         m_power.is_empty() ? std::vector<glm::vec4>{} : m_power.read<glm::vec4>(count);
-    columns.drift.resize(3 * count);
+    columns.state.drift.resize(3 * count);
     for (std::size_t at = 0; at < count; ++at) {
         const std::uint32_t id = std::bit_cast<std::uint32_t>(positions[at].w);
         for (int axis = 0; axis < 3; ++axis) {
             const double drift = static_cast<double>(positions[at][axis]) - start[at][axis];
-            columns.drift[3 * id + axis] = static_cast<float>(drift);
+            columns.state.drift[3 * id + axis] = static_cast<float>(drift);
             // What did not move keeps its bits, whatever the origins.
             placed[id][axis] =
                 drift == 0.0 ? before[id][axis] : static_cast<float>(positions[at][axis] - m_shift[axis]);
@@ -338,7 +338,7 @@ RelaxedColumns Relaxation::read() const {
 void Relaxation::read_state(RelaxedColumns& columns, const std::vector<glm::vec4>& order) const {
     const std::uint64_t count = m_photons.count;
     const std::vector<glm::vec4> moves = count ? m_moves.read<glm::vec4>(count) : std::vector<glm::vec4>{};
-    columns.pressure = scatter<float>(order, 1, [&](std::size_t at, float* value) { *value = moves[at].w; });
+    columns.state.pressure = scatter<float>(order, 1, [&](std::size_t at, float* value) { *value = moves[at].w; });
     if (!m_triangles.is_empty())
         for (const std::uint32_t triangle : m_triangles.read<std::uint32_t>(count))
             columns.off_surface_count += triangle == shared::NO_TRIANGLE;
@@ -349,20 +349,20 @@ void Relaxation::read_state(RelaxedColumns& columns, const std::vector<glm::vec4
     const std::vector<glm::vec4> across = m_constraint.across.read<glm::vec4>(count);
     const std::vector<glm::vec4> offsets = m_constraint.offsets.read<glm::vec4>(count);
     const std::vector<glm::vec4> radii = m_constraint.member_radii.read<glm::vec4>(count);
-    columns.basis = scatter<float>(order, 6, [&](std::size_t at, float* value) {
+    columns.state.basis = scatter<float>(order, 6, [&](std::size_t at, float* value) {
         std::copy_n(&along[at].x, 3, value);
         std::copy_n(&across[at].x, 3, value + 3);
     });
-    columns.weights = scatter<float>(order, 2, [&](std::size_t at, float* value) {
+    columns.state.weights = scatter<float>(order, 2, [&](std::size_t at, float* value) {
         value[0] = along[at].w;
         value[1] = across[at].w;
     });
-    columns.gradient = scatter<float>(order, 3, [&](std::size_t at, float* value) {
+    columns.state.gradient = scatter<float>(order, 3, [&](std::size_t at, float* value) {
         const float r = std::sqrt(radii[at].x);
         for (int axis = 0; axis < 3; ++axis)
             value[axis] = r > 0 ? 4.0f * offsets[at][axis] / r : 0.0f; // METHODS §5.1: 4m/r²
     });
-    columns.one_sidedness = scatter<float>(order, 1, [&](std::size_t at, float* value) { *value = radii[at].z; });
+    columns.state.one_sidedness = scatter<float>(order, 1, [&](std::size_t at, float* value) { *value = radii[at].z; });
 }
 
 } // namespace photonloupe

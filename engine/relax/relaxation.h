@@ -7,6 +7,7 @@
 
 #include "photons/layered_tree.h"
 #include "relax/constraint.h"
+#include "relax/relaxed_state.h"
 #include "scene/scene_buffers.h"
 
 namespace photonloupe {
@@ -30,14 +31,9 @@ struct StepReport {
 
 // What came of it, by photon id.
 struct RelaxedColumns {
-    PhotonMap map;               // without paths
-    std::vector<float> drift;    // 3 a photon, metres since the constraint was measured
-    std::vector<float> pressure; // of the last step
-    bool has_constraint = false;
-    std::vector<float> basis;    // 6 a photon: u_b, v_b
-    std::vector<float> weights;  // 2: w_u, w_v
-    std::vector<float> gradient; // 3: ∇f/f in 1/m
-    std::vector<float> one_sidedness;
+    PhotonMap map; // without paths
+    RelaxedState state;
+    bool has_constraint = false;         // the state has its columns
     std::uint64_t off_surface_count = 0; // photons that moved in their tangent plane
 };
 

@@ -67,6 +67,8 @@ STATE_COLUMNS = (
     Column("pressure", "f4", low=0.0),
 )
 ALL_COLUMNS = {column.name: column for column in (*PHOTON_COLUMNS, PATH_OFFSETS, *PATH_COLUMNS, *STATE_COLUMNS)}
+# What a constraint or a relaxation measured, beside the places it found.
+RELAXED_NAMES = ("drift", "pressure", "constraint_basis", "constraint_weights", "gradient", "one_sidedness")
 PATH_NAMES = (PATH_OFFSETS.name, *(column.name for column in PATH_COLUMNS))
 REQUIRED = ("positions", "normals", "power")
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from photonloupe import _engine, exporting, storage
 from photonloupe.checks import check_count, check_rows
-from photonloupe.columns import PATH_NAMES, PHOTON_COLUMNS, STATE_COLUMNS, Columns, check_columns
+from photonloupe.columns import PATH_NAMES, PHOTON_COLUMNS, RELAXED_NAMES, STATE_COLUMNS, Columns, check_columns
 from photonloupe.device import Device, open_device
 from photonloupe.errors import ArgumentError, PhotonLoupeError
 from photonloupe.parameters import Parameter, describe_parameters
@@ -273,6 +274,7 @@ class PhotonMap(PhotonStages):
             self._native = _engine.photons_from_columns(device, columns, store)
             self._upload_parameters()
             self._upload_colors()
+            self._upload_state()
         return self._native
 
     def upload_columns(self, names: Sequence[str]) -> _engine.PhotonMap:
@@ -314,8 +316,8 @@ class PhotonMap(PhotonStages):
     def _upload_parameters(self) -> None:
         if "parameters" in self._columns and self._native is not None:
             values = np.ascontiguousarray(self._columns["parameters"])
-            periods = [parameter.period for parameter in self._parameters]
-            _engine.set_parameters(open_device(self._device)._native, self._native, values, periods)
+            axes = [{**asdict(parameter), "period": parameter.period} for parameter in self._parameters]
+            _engine.set_parameters(open_device(self._device)._native, self._native, values, axes)
 
     def _upload_colors(self) -> None:
         """Show photons without a color, or without one of their parameters, in grey."""
@@ -324,6 +326,11 @@ class PhotonMap(PhotonStages):
             if self._parameters:
                 colors[~self.parameters_set] = np.nan
             _engine.set_colors(open_device(self._device)._native, self._native, colors)
+
+    def _upload_state(self) -> None:
+        names = [name for name in RELAXED_NAMES if name in self._columns]
+        if names and self._native is not None:
+            _engine.set_state(self._native, {name: np.ascontiguousarray(self._columns[name]) for name in names})
 
     def find_surface(self) -> Scene | None:
         """Return the scene whose surfaces the photons lie on; None for a map from arrays without one."""
