@@ -3,6 +3,7 @@
 #include "studio/show_pixels.h"
 
 #include <stdexcept>
+#include <utility>
 
 namespace photonloupe::studio {
 

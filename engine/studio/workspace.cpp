@@ -16,7 +16,9 @@ namespace {
 constexpr const char* ENCODING = "encoding";
 
 std::uint32_t pack_color(glm::vec3 srgb) {
-    const auto byte = [](float value) { return static_cast<std::uint32_t>(std::clamp(value, 0.0f, 1.0f) * 255 + 0.5f); };
+    const auto byte = [](float value) {
+        return static_cast<std::uint32_t>(std::clamp(value, 0.0f, 1.0f) * 255 + 0.5f);
+    };
     return byte(srgb.r) | byte(srgb.g) << 8 | byte(srgb.b) << 16 | 0xff000000u;
 }
 

@@ -34,6 +34,8 @@ struct Activity {
 };
 
 struct Workspace {
+    Workspace(gpu::Device& opened, Workbench& stages) : device(opened), bench(stages), pixels(opened) {}
+
     gpu::Device& device;
     Workbench& bench;
     StudioState state;
@@ -43,18 +45,19 @@ struct Workspace {
     Activity activity;
     ScriptDocument script;
     Fonts fonts;
-    PixelShow pixels; // images of panels
+    PixelShow pixels;          // images of panels
     bool is_offscreen = false; // fixed clock, no timings shown, nothing blinks
     float scale = 1.0f;        // of the monitor
     std::uint64_t frame = 0;
     double frame_milliseconds = 0;
-    double loupe_milliseconds = 0;
-    std::string message;       // the last thing that went wrong, or right; empty: none
+    std::vector<double> loupe_times, plot_times; // milliseconds, of this frame
+    std::string message;                         // the last thing that went wrong, or right; empty: none
     bool message_is_error = false;
     bool wants_render = false; // the Image panel's
     bool wants_isotropy = false;
     bool shows_keys = false;
-    bool is_settled = true;    // views have nothing left to refine
+    std::string solo;       // the only panel, filling the window: exports; empty: all
+    bool is_settled = true; // views have nothing left to refine
 
     std::optional<inspect::LoupeView> loupe; // what it sees now
     std::string loupe_missing;               // why it sees nothing

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// Commands of the loupe and of relaxation.
+#include <algorithm>
+
+#include "studio/edit_state.h"
+
+namespace photonloupe::studio {
+namespace {
+
+constexpr std::size_t MOST_PINS = 8;
+constexpr std::uint32_t LARGEST_K = 1000;
+constexpr double GROWTH = 1.25;
+
+void change_loupe(Workspace& workspace, const char* name, const std::function<void(LoupeState&)>& make) {
+    workspace.change(name, [&](StudioState& state) { make(state.loupe); });
+    ++workspace.loupe_version;
+}
+
+// Steps made with other choices are those of another relaxation.
+void begin_relaxation(RelaxState& relax) {
+    if (relax.used != relax.choices)
+        relax.made = 0;
+    relax.used = relax.choices;
+    relax.is_measured = true;
+}
+
+} // namespace
+
+void pin_photon(Workspace& workspace) {
+    if (!workspace.loupe || !workspace.loupe->center) {
+        workspace.say("the loupe sees no photon to pin; move the cursor onto some");
+        return;
+    }
+    const std::uint32_t photon = *workspace.loupe->center;
+    change_loupe(workspace, "pin", [&](LoupeState& loupe) {
+        std::erase(loupe.pins, photon);
+        loupe.pins.push_back(photon);
+        if (loupe.pins.size() > MOST_PINS)
+            loupe.pins.erase(loupe.pins.begin());
+    });
+}
+
+void unpin_photons(Workspace& workspace) {
+    change_loupe(workspace, "unpin", [](LoupeState& loupe) {
+        loupe.pins.clear();
+        if (loupe.lock == "pin")
+            loupe.lock = "none";
+    });
+}
+
+void lock_to_pin(Workspace& workspace) {
+    if (workspace.state.loupe.lock != "pin" && workspace.state.loupe.pins.empty())
+        pin_photon(workspace);
+    if (workspace.state.loupe.pins.empty())
+        return;
+    change_loupe(workspace, "lock range", [](LoupeState& loupe) {
+        loupe.lock = loupe.lock == "pin" ? "none" : "pin";
+        if (loupe.lock == "pin")
+            loupe.space = "constrained";
+    });
+}
+
+void lock_to_brushes(Workspace& workspace) {
+    change_loupe(workspace, "lock range", [](LoupeState& loupe) {
+        loupe.lock = loupe.lock == "brushes" ? "none" : "brushes";
+        if (loupe.lock == "brushes")
+            loupe.space = "constrained";
+    });
+}
+
+void grow_loupe(Workspace& workspace) {
+    change_loupe(workspace, "loupe size", [](LoupeState& loupe) {
+        loupe.k = std::min(LARGEST_K, static_cast<std::uint32_t>(loupe.k * GROWTH) + 1);
+    });
+}
+
+void shrink_loupe(Workspace& workspace) {
+    change_loupe(workspace, "loupe size",
+                 [](LoupeState& loupe) { loupe.k = std::max(1u, static_cast<std::uint32_t>(loupe.k / GROWTH)); });
+}
+
+void change_space(Workspace& workspace) {
+    change_loupe(workspace, "loupe space", [](LoupeState& loupe) {
+        loupe.space = loupe.space == "world" ? "parameter" : loupe.space == "parameter" ? "constrained" : "world";
+    });
+}
+
+void toggle_paths(Workspace& workspace) {
+    change_loupe(workspace, "light paths", [](LoupeState& loupe) { loupe.shows_paths = !loupe.shows_paths; });
+}
+
+void measure_constraint_command(Workspace& workspace) {
+    workspace.change("measure constraint", [](StudioState& state) {
+        begin_relaxation(state.relax);
+        state.relax.made = 0;
+    });
+}
+
+void step_relaxation(Workspace& workspace) {
+    workspace.change("relaxation step", [](StudioState& state) {
+        begin_relaxation(state.relax);
+        ++state.relax.made;
+        state.view.shows_relaxed = true;
+    });
+}
+
+void run_relaxation(Workspace& workspace) {
+    workspace.change("relax", [](StudioState& state) {
+        begin_relaxation(state.relax);
+        state.relax.made = std::max(state.relax.choices.steps, state.relax.made);
+        state.view.shows_relaxed = true;
+    });
+}
+
+void reset_relaxation(Workspace& workspace) {
+    workspace.change("reset relaxation", [](StudioState& state) {
+        state.relax.made = 0;
+        state.relax.is_measured = false;
+        state.view.shows_relaxed = false;
+    });
+}
+
+} // namespace photonloupe::studio

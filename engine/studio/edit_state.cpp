@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// Commands of editing, scripts, view and selection.
+#include "studio/edit_state.h"
+
+#include <algorithm>
+
+#include <imgui.h>
+
+#include "core/error.h"
+#include "photons/map_columns.h"
+#include "studio/python_script.h"
+
+namespace photonloupe::studio {
+namespace {
+
+void after_jump(Workspace& workspace, const char* what, const std::string& name) {
+    ++workspace.selection_version;
+    ++workspace.loupe_version;
+    workspace.say(std::string(what) + ": " + name);
+}
+
+} // namespace
+
+void undo(Workspace& workspace) {
+    const std::string name = workspace.history.undo_name();
+    if (workspace.history.undo(workspace.state))
+        after_jump(workspace, "undone", name);
+    else
+        workspace.say("there is nothing to undo");
+}
+
+void redo(Workspace& workspace) {
+    const std::string name = workspace.history.redo_name();
+    if (workspace.history.redo(workspace.state))
+        after_jump(workspace, "redone", name);
+    else
+        workspace.say("there is nothing to redo");
+}
+
+void copy_python(Workspace& workspace) {
+    ImGui::SetClipboardText(write_python(workspace.state).c_str());
+    workspace.say("the Python of this state is on the clipboard");
+}
+
+void save_session_command(Workspace& workspace) {
+    workspace.requests.push_back("save_session");
+}
+
+void run_script(Workspace& workspace) {
+    const std::string& text = workspace.state.script.text;
+    workspace.script.check(text, workspace.state.script.path.empty() ? "script" : workspace.state.script.path);
+    if (text.empty()) {
+        workspace.say("there is no script to run; write one, or choose an example", true);
+        return;
+    }
+    if (workspace.script.has_errors()) {
+        workspace.say("the script has errors; the last good run stays", true);
+        return;
+    }
+    workspace.change("run script", [](StudioState& state) { state.script.ran = state.script.text; });
+    workspace.done.erase("script"); // the same text runs again
+}
+
+void open_next_example(Workspace& workspace) {
+    workspace.requests.push_back("next_example");
+}
+
+void open_script(Workspace& workspace, const std::string& path, const std::string& text) {
+    workspace.change("open script", [&](StudioState& state) {
+        state.script.path = path;
+        state.script.text = text;
+        state.script.values.clear();
+    });
+}
+
+void set_mode(Workspace& workspace, ViewMode mode) {
+    workspace.change("view", [&](StudioState& state) { state.view.mode = mode; });
+}
+
+void toggle_relaxed(Workspace& workspace) {
+    if (!workspace.has_relaxed()) {
+        workspace.say("nothing is relaxed yet; Relaxation / Run does it");
+        return;
+    }
+    workspace.change("before or after",
+                     [](StudioState& state) { state.view.shows_relaxed = !state.view.shows_relaxed; });
+    ++workspace.loupe_version;
+}
+
+void toggle_split(Workspace& workspace) {
+    if (!workspace.has_relaxed() && !workspace.state.view.is_split) {
+        workspace.say("nothing is relaxed yet; Relaxation / Run does it");
+        return;
+    }
+    workspace.change("side by side", [](StudioState& state) { state.view.is_split = !state.view.is_split; });
+}
+
+std::optional<Bounds> find_photon_box(const Photons& photons, const Ids& ids) {
+    const std::vector<float> positions = read_positions(photons.map);
+    Bounds box{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}};
+    const std::size_t count = ids ? ids->size() : photons.map.count;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t photon = ids ? (*ids)[i] : i;
+        if (photon >= photons.map.count)
+            continue;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            box.lo[axis] = std::min(box.lo[axis], static_cast<double>(positions[3 * photon + axis]));
+            box.hi[axis] = std::max(box.hi[axis], static_cast<double>(positions[3 * photon + axis]));
+        }
+    }
+    return box.lo[0] <= box.hi[0] ? std::optional(box) : std::nullopt;
+}
+
+void frame_selection(Workspace& workspace) {
+    const Photons* photons = workspace.shown();
+    const std::optional<Bounds> box = photons ? find_photon_box(*photons, workspace.state.selection) : std::nullopt;
+    if (!box) {
+        workspace.say("there are no photons to frame; open a scene");
+        return;
+    }
+    workspace.change("frame", [&](StudioState& state) { fit_box(state.view.camera, *box); });
+}
+
+void look_straight(Workspace& workspace) {
+    glm::vec3 normal(0, 1, 0);
+    if (workspace.loupe && workspace.loupe->center)
+        normal = workspace.loupe->center_normal;
+    workspace.change("look straight", [&](StudioState& state) { face_normal(state.view.camera, normal); });
+}
+
+void clear_selection(Workspace& workspace) {
+    workspace.change("select nothing", [&](StudioState& state) {
+        for (AxisState& axis : state.parallel.axes)
+            axis.brushes.clear();
+        workspace.select(nullptr);
+    });
+}
+
+void clear_brushes(Workspace& workspace) {
+    clear_selection(workspace);
+}
+
+void reset_axes(Workspace& workspace) {
+    workspace.change("reset axes", [&](StudioState& state) { state.parallel.axes = choose_axes(workspace); });
+}
+
+std::vector<AxisState> choose_axes(Workspace& workspace) {
+    std::vector<AxisState> axes;
+    const auto add = [&](const std::string& name, bool is_closed) {
+        AxisState axis;
+        axis.name = name;
+        axis.is_closed = is_closed;
+        axes.push_back(axis);
+    };
+    for (const char* name : {"x", "y", "z"})
+        add(name, false);
+    const Photons* photons = workspace.shown();
+    if (photons && photons->map.parameters)
+        for (const ParameterAxis& parameter : photons->map.parameters->axes)
+            add(parameter.name, parameter.period > 0);
+    for (const inspect::ColumnInfo& info : workspace.list_columns())
+        if (info.missing.empty() && (info.name == "signature" || (axes.size() < 6 && info.name.starts_with("primal_"))))
+            add(info.name, info.period > 0);
+    return axes;
+}
+
+void toggle_keys(Workspace& workspace) {
+    workspace.shows_keys = !workspace.shows_keys;
+}
+
+} // namespace photonloupe::studio

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writes the state as a Python program; what stands at its default is left out.
+#include "studio/python_script.h"
+
+#include <nlohmann/json.hpp>
+
+#include "studio/camera.h"
+
+namespace photonloupe::studio {
+namespace {
+
+using Text = nlohmann::json;
+
+// A Python literal: JSON's strings and numbers are Python's too.
+std::string quote(const std::string& text) {
+    return Text(text).dump(-1, ' ', true, Text::error_handler_t::replace);
+}
+std::string write(double value) {
+    return Text(value).dump();
+}
+std::string write(float value) {
+    return Text(value).dump(); // shortest text that reads back as this float
+}
+std::string write(bool value) {
+    return value ? "True" : "False";
+}
+template <class T, std::size_t Size>
+std::string write(const std::array<T, Size>& values) {
+    std::string text;
+    for (const T value : values)
+        text += (text.empty() ? "(" : ", ") + write(value);
+    return text + ")";
+}
+
+// Raw, where the text allows it, so that a script stays readable.
+std::string write_script(const std::string& text) {
+    const bool is_plain = text.find("'''") == std::string::npos && text.find('\r') == std::string::npos &&
+                          (text.empty() || (text.back() != '\'' && text.back() != '\\'));
+    const bool is_one_path = text.find('\n') == std::string::npos && text.ends_with(".photon");
+    return is_plain && !is_one_path ? "r'''" + text + "'''" : quote(text);
+}
+
+std::string write_trace(const TraceState& trace) {
+    std::string text;
+    if (!trace.scene.empty())
+        text += "scene = pl.load_scene(" + quote(trace.scene) + ")\n";
+    if (!trace.map.empty())
+        return text + "photons = pl.load_photons(" + quote(trace.map) + ")\n";
+    return text + "photons = pl.trace_photons(scene, " + std::to_string(trace.photons) +
+           ", seed=" + std::to_string(trace.seed) + ", emission=" + quote(trace.emission) +
+           ", store=" + quote(trace.store) + ")\n";
+}
+
+std::string write_run(const ScriptState& script) {
+    if (script.ran.empty())
+        return "";
+    std::string values;
+    for (const auto& [name, value] : script.values)
+        values += (values.empty() ? "" : ", ") + quote(name) + ": " + write(value);
+    return "photons.run_script(\n    " + write_script(script.ran) + ",\n    values={" + values + "},\n)\n";
+}
+
+std::string write_relax(const RelaxState& relax) {
+    if (relax.made == 0 && !relax.is_measured)
+        return "relaxed = photons\n";
+    const RelaxChoices& used = relax.used;
+    return "relaxation = pl.Relaxation(\n    photons, steps=" + std::to_string(used.steps) +
+           ", neighbors=" + std::to_string(used.neighbors) + ", constraint=" + quote(used.constraint) +
+           ", descriptor=" + quote(used.descriptor) +
+           ",\n    beta=" + (used.has_auto_beta ? "\"auto\"" : write(used.beta)) + ", repel=" + quote(used.repel) +
+           ", over_relaxation=" + write(used.over_relaxation) +
+           ", limit=" + (used.limit > 0 ? write(used.limit) : "None") +
+           ",\n    constraint_neighbors=" + std::to_string(used.constraint_neighbors) +
+           ", search=" + quote(used.search) + ", diffuse_flux=" + write(used.diffuse_flux) + ",\n)\nfor _ in range(" +
+           std::to_string(relax.made) + "):\n    relaxation.step()\nrelaxed = relaxation.photons\n";
+}
+
+std::string write_render(const StudioState& state) {
+    if (state.trace.scene.empty())
+        return "";
+    const CameraPose pose = find_pose(state.view.camera);
+    const bool is_colored = state.view.mode == ViewMode::colored_render;
+    return "camera = pl.Camera(position=" + write(pose.position) + ", target=" + write(pose.target) +
+           ", up=" + write(pose.up) + ", yfov=" + write(pose.yfov) + ")\nimage = pl.render(\n    scene, " +
+           (state.view.shows_relaxed ? "relaxed" : "photons") +
+           ", camera=camera, width=" + std::to_string(RENDER_WIDTH) + ", height=" + std::to_string(RENDER_HEIGHT) +
+           ", samples=" + std::to_string(state.image.samples) + ", k=" + std::to_string(state.image.k) +
+           ", mode=" + (is_colored ? "\"false-color\"" : "\"composite\"") + ",\n)\nimage.save(\"view.exr\")\n";
+}
+
+std::string write_axis(const AxisState& axis) {
+    std::string text = "    pl.inspect.Axis(" + quote(axis.name);
+    if (axis.low != axis.high)
+        text += ", low=" + write(axis.low) + ", high=" + write(axis.high);
+    if (axis.is_closed)
+        text += ", closed=True, periods=" + std::to_string(axis.periods);
+    if (axis.is_flipped)
+        text += ", flipped=True";
+    std::string brushes;
+    for (const std::array<float, 2>& brush : axis.brushes)
+        brushes += write(brush) + ", ";
+    return text + (brushes.empty() ? "" : ", brush=[" + brushes + "]") + "),\n";
+}
+
+std::string write_loupe(const StudioState& state) {
+    const LoupeState& loupe = state.loupe;
+    if (!loupe.has_point)
+        return "";
+    std::string text = "view = pl.inspect.loupe(\n    relaxed, " + write(loupe.point) +
+                       ", k=" + std::to_string(loupe.k) + ", space=" + quote(loupe.space);
+    if (loupe.space == "constrained")
+        text += ", beta=" + write(loupe.beta);
+    if (loupe.lock == "pin" && !loupe.pins.empty())
+        text += ", center=" + std::to_string(loupe.pins.back());
+    return text + ",\n)\n";
+}
+
+std::string write_plot(const StudioState& state) {
+    const ParallelState& parallel = state.parallel;
+    if (parallel.axes.empty())
+        return "";
+    std::string text = "axes = [\n";
+    for (const AxisState& axis : parallel.axes)
+        text += write_axis(axis);
+    const bool uses_loupe = parallel.source == "loupe" && state.loupe.has_point;
+    return text + "]\nplot = pl.inspect.parallel_coordinates(relaxed, axes, " +
+           (uses_loupe ? "selection=view.ids, " : "") + "tension=" + write(parallel.tension) + ")\n";
+}
+
+} // namespace
+
+std::string write_python(const StudioState& state) {
+    if (state.trace.scene.empty() && state.trace.map.empty())
+        return "import photonloupe as pl\n";
+    return "import photonloupe as pl\n\n" + write_trace(state.trace) + write_run(state.script) +
+           write_relax(state.relax) + write_render(state) + write_loupe(state) + write_plot(state);
+}
+
+} // namespace photonloupe::studio

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// Input from programs, as a window would send it.
+#include <algorithm>
+
+#include <imgui.h>
+#include <imgui_internal.h>
+
+#include "core/error.h"
+#include "studio/studio.h"
+
+namespace photonloupe::studio {
+namespace {
+
+constexpr int MOUSE_BUTTONS = 3;
+
+ImGuiIO& find_io(ImGuiContext* context) {
+    return context->IO;
+}
+
+} // namespace
+
+void Studio::move_mouse(float x, float y) {
+    find_io(m_context).AddMousePosEvent(x, y);
+}
+
+void Studio::press_mouse(int button, bool is_down) {
+    if (button < 0 || button >= MOUSE_BUTTONS)
+        throw Error("mouse button " + std::to_string(button) + " is not 0 (left), 1 (right) or 2 (middle)");
+    find_io(m_context).AddMouseButtonEvent(button, is_down);
+}
+
+void Studio::turn_wheel(float steps) {
+    find_io(m_context).AddMouseWheelEvent(0, steps);
+}
+
+void Studio::press_key(const std::string& chord) {
+    const int parsed = parse_chord(chord);
+    ImGuiIO& io = find_io(m_context);
+    const auto key = static_cast<ImGuiKey>(parsed & ~ImGuiMod_Mask_);
+    for (const ImGuiKey modifier : {ImGuiMod_Ctrl, ImGuiMod_Shift, ImGuiMod_Alt})
+        if (parsed & modifier)
+            io.AddKeyEvent(modifier, true);
+    if (key != ImGuiKey_None) {
+        io.AddKeyEvent(key, true);
+        io.AddKeyEvent(key, false);
+    }
+    for (const ImGuiKey modifier : {ImGuiMod_Ctrl, ImGuiMod_Shift, ImGuiMod_Alt})
+        if (parsed & modifier)
+            io.AddKeyEvent(modifier, false);
+}
+
+void Studio::type_text(const std::string& text) {
+    ImGuiIO& io = find_io(m_context);
+    std::string run;
+    const auto flush = [&] {
+        if (!run.empty())
+            io.AddInputCharactersUTF8(run.c_str());
+        run.clear();
+    };
+    for (const char letter : text) {
+        if (letter != '\n') {
+            run += letter;
+            continue;
+        }
+        flush();
+        press_key("enter");
+    }
+    flush();
+}
+
+void Studio::drop_file(const std::string& path) {
+    m_workspace.requests.push_back("open " + path);
+}
+
+std::optional<Job> Studio::take_job() {
+    std::lock_guard lock(m_mutex);
+    if (m_running)
+        return std::nullopt;
+    const Workspace& workspace = m_workspace;
+    const Wanted wanted{workspace.wants_render, workspace.wants_isotropy};
+    m_running = plan_work(workspace.state, find_pose(workspace.state.view.camera), wanted, workspace.has_parameters(),
+                          workspace.results.photons_version, workspace.done);
+    m_stop = false;
+    m_progress = 0;
+    m_progress_stage = m_running ? m_running->kind : "";
+    return m_running;
+}
+
+void Studio::deliver(std::function<void(Workspace&)> change) {
+    std::lock_guard lock(m_mutex);
+    m_deliveries.push_back(std::move(change));
+}
+
+bool Studio::report_progress(const std::string& stage, double fraction) {
+    std::lock_guard lock(m_mutex);
+    m_progress_stage = stage;
+    m_progress = std::clamp(fraction, 0.0, 1.0);
+    return !m_stop;
+}
+
+// What was asked for may have changed meanwhile: then the result is one of the past, and plan_work asks again.
+void Studio::end_job(const Job& job, const std::string& error) {
+    deliver([job, error](Workspace& workspace) {
+        workspace.done[job.kind] = job.key;
+        if (!error.empty())
+            workspace.say(error, true);
+    });
+    std::lock_guard lock(m_mutex);
+    m_running.reset();
+    m_stop = false;
+}
+
+void Studio::stop_job() {
+    std::lock_guard lock(m_mutex);
+    m_stop = m_running.has_value();
+}
+
+} // namespace photonloupe::studio

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// ImGui's widgets with a name each.
+#include "studio/widgets.h"
+
+#include <imgui.h>
+
+namespace photonloupe::studio::ui {
+
+void mark(Workspace& workspace, const std::string& name) {
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    workspace.widgets[name] = {low.x, low.y, high.x - low.x, high.y - low.y};
+}
+
+void explain(const char* text) {
+    if (text && ImGui::IsItemHovered(ImGuiHoveredFlags_ForTooltip | ImGuiHoveredFlags_AllowWhenDisabled))
+        ImGui::SetTooltip("%s", text);
+}
+
+bool button(Workspace& workspace, const std::string& name, const char* label, const char* about) {
+    const bool pressed = ImGui::Button(label);
+    mark(workspace, name);
+    explain(about);
+    return pressed;
+}
+
+bool toggle(Workspace& workspace, const std::string& name, const char* label, bool is_on, const char* about) {
+    bool value = is_on;
+    const bool changed = ImGui::Checkbox(label, &value);
+    mark(workspace, name);
+    explain(about);
+    return changed;
+}
+
+int choose(Workspace& workspace, const std::string& name, const char* label, const std::string& current,
+           std::initializer_list<const char*> entries, const char* about) {
+    int chosen = -1;
+    const bool is_open = ImGui::BeginCombo(label, current.c_str());
+    mark(workspace, name);
+    explain(about);
+    if (!is_open)
+        return chosen;
+    int index = 0;
+    for (const char* entry : entries) {
+        if (ImGui::Selectable(entry, current == entry))
+            chosen = index;
+        mark(workspace, name + "/" + entry);
+        ++index;
+    }
+    ImGui::EndCombo();
+    return chosen;
+}
+
+bool choose_column(Workspace& workspace, const std::string& name, const char* label, std::string& value,
+                   const char* extra) {
+    bool changed = false;
+    const bool is_open = ImGui::BeginCombo(label, value.c_str(), ImGuiComboFlags_HeightLarge);
+    mark(workspace, name);
+    if (!is_open)
+        return false;
+    const auto offer = [&](const std::string& entry, const std::string& about, bool is_missing) {
+        ImGui::BeginDisabled(is_missing);
+        if (ImGui::Selectable(entry.c_str(), entry == value)) {
+            value = entry;
+            changed = true;
+        }
+        ImGui::EndDisabled();
+        mark(workspace, name + "/" + entry);
+        explain(about.c_str());
+    };
+    if (extra)
+        offer(extra, "the colors a script gives", false);
+    for (const inspect::ColumnInfo& info : workspace.list_columns())
+        offer(info.name, info.missing.empty() ? info.label : info.missing, !info.missing.empty());
+    ImGui::EndCombo();
+    return changed;
+}
+
+bool slide(Workspace& workspace, const std::string& name, const char* label, float& value, float low, float high,
+           const char* format, bool is_logarithmic) {
+    const ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp | (is_logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+    const bool changed = ImGui::SliderFloat(label, &value, low, high, format, flags);
+    mark(workspace, name);
+    return changed;
+}
+
+bool slide(Workspace& workspace, const std::string& name, const char* label, std::uint32_t& value, std::uint32_t low,
+           std::uint32_t high, bool is_logarithmic) {
+    const ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp | (is_logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+    const bool changed = ImGui::SliderScalar(label, ImGuiDataType_U32, &value, &low, &high, "%u", flags);
+    mark(workspace, name);
+    return changed;
+}
+
+void say_empty(const std::string& text) {
+    ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextDisabled("%s", text.c_str());
+    ImGui::PopTextWrapPos();
+}
+
+} // namespace photonloupe::studio::ui

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Widgets whose places are known by name, and which change the state by commands.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+
+#include "studio/workspace.h"
+
+namespace photonloupe::studio::ui {
+
+// Remembers where the last item was drawn.
+void mark(Workspace& workspace, const std::string& name);
+// Explains the last item while the mouse rests on it.
+void explain(const char* text);
+
+bool button(Workspace& workspace, const std::string& name, const char* label, const char* about = nullptr);
+bool toggle(Workspace& workspace, const std::string& name, const char* label, bool is_on, const char* about = nullptr);
+// Returns the entry that was chosen now, or -1.
+int choose(Workspace& workspace, const std::string& name, const char* label, const std::string& current,
+           std::initializer_list<const char*> entries, const char* about = nullptr);
+// A column of the photons in view; true: `value` was changed.
+bool choose_column(Workspace& workspace, const std::string& name, const char* label, std::string& value,
+                   const char* extra = nullptr);
+bool slide(Workspace& workspace, const std::string& name, const char* label, float& value, float low, float high,
+           const char* format = "%.3g", bool is_logarithmic = false);
+bool slide(Workspace& workspace, const std::string& name, const char* label, std::uint32_t& value, std::uint32_t low,
+           std::uint32_t high, bool is_logarithmic = false);
+
+// A panel that has nothing to show says why and what to do.
+void say_empty(const std::string& text);
+
+} // namespace photonloupe::studio::ui
