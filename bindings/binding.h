@@ -11,6 +11,7 @@
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/unique_ptr.h>
@@ -113,5 +114,7 @@ void bind_script(nb::module_& module);
 void bind_relax(nb::module_& module);
 void bind_estimate(nb::module_& module);
 void bind_image(nb::module_& module);
+void bind_inspect(nb::module_& module);
+void bind_inspect_images(nb::module_& module);
 
 } // namespace photonloupe::bindings

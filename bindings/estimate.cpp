@@ -30,7 +30,9 @@ RenderMode parse_mode(const std::string& name) {
         return RenderMode::photons;
     if (name == "false-color")
         return RenderMode::false_color;
-    throw Error("mode is '" + name + "'; it must be composite, caustic, direct, photons or false-color");
+    if (name == "voronoi")
+        return RenderMode::voronoi;
+    throw Error("mode is '" + name + "'; it must be composite, caustic, direct, photons, false-color or voronoi");
 }
 
 nb::ndarray<nb::numpy, float> estimate(OpenDevice& open, Photons& photons, Matrix<const double, 3> points,

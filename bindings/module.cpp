@@ -21,4 +21,6 @@ NB_MODULE(_engine, module) {
     bindings::bind_relax(module);
     bindings::bind_estimate(module);
     bindings::bind_image(module);
+    bindings::bind_inspect(module);
+    bindings::bind_inspect_images(module);
 }

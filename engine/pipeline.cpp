@@ -2,6 +2,9 @@
 // Connects the stages and remembers what each was given.
 #include "pipeline.h"
 
+#include "estimate/camera_frame.h"
+#include "inspect/photon_colors.h"
+#include "inspect/voronoi.h"
 #include "photons/map_columns.h"
 
 namespace photonloupe {
@@ -210,10 +213,23 @@ gpu::Buffer Workbench::estimate_irradiance(Photons& photons, std::span<const glm
         gpu::make_buffer(m_device, normals, "normals"), order_points(points), settings, progress);
 }
 
+Image Workbench::render_voronoi(const Scene& scene, Photons& photons, const RenderSettings& settings,
+                                const Progress& progress) {
+    const shared::CameraFrame camera =
+        frame_camera(scene, find_camera(scene, settings.camera), settings.width, settings.height);
+    const inspect::SurfaceView view =
+        inspect::see_surfaces(m_device, scene, *find_buffers(scene), camera, settings.width, settings.height, progress);
+    const inspect::CellImage cells = inspect::find_voronoi_cells(m_device, photons.map, find_tree(photons, progress),
+                                                                 view, {settings.estimate.flatness}, progress);
+    return inspect::paint_cells(cells, inspect::list_encoded_colors(photons.map));
+}
+
 Image Workbench::render(const Scene& scene, Photons* photons, const RenderSettings& settings,
                         const Progress& progress) {
     if (!photons)
         return render_image(m_device, scene, *find_buffers(scene), nullptr, settings, progress);
+    if (settings.mode == RenderMode::voronoi)
+        return render_voronoi(scene, *photons, settings, progress);
     const RenderedMap map{photons->map, find_tree(*photons, progress), photons->store};
     return render_image(m_device, scene, *find_buffers(scene), &map, settings, progress);
 }

@@ -99,6 +99,8 @@ private:
     gpu::Buffer find_script_rows(Photons& photons, script::NeighborQuery::Space space,
                                  std::span<const std::uint32_t> ids, std::uint32_t k, float beta,
                                  const Progress& progress);
+    Image render_voronoi(const Scene& scene, Photons& photons, const RenderSettings& settings,
+                         const Progress& progress);
     void take_script_columns(Photons& photons, const script::ScriptRun& run);
 
     gpu::Device& m_device;

@@ -15,6 +15,7 @@ enum class RenderMode {
     direct,      // emission + direct
     photons,     // stored photons as points
     false_color, // the mean color of the photons around, times the luminance of their irradiance
+    voronoi,     // the cells of the photons on the surfaces seen; one sample a pixel
 };
 
 struct RenderSettings {

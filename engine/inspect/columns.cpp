@@ -6,6 +6,7 @@
 #include <set>
 
 #include "inspect/column_source.h"
+#include "inspect/photon_colors.h"
 
 namespace photonloupe::inspect {
 namespace {
@@ -75,6 +76,12 @@ std::vector<ColumnInfo> list_columns(const Photons& photons) {
         infos.push_back({source.name, source.label, source.period, source.is_discrete, source.needs == Needs::paths,
                          explain_missing(photons, source)});
     return infos;
+}
+
+std::vector<glm::vec3> find_photon_colors(Workbench& bench, Photons& photons, const std::string& color,
+                                          const Progress& progress) {
+    return color == "encoding" ? list_encoded_colors(photons.map)
+                               : list_column_colors(find_column(bench, photons, color, progress));
 }
 
 Column find_column(Workbench& bench, Photons& photons, const std::string& name, const Progress& progress) {

@@ -79,8 +79,12 @@ double encode_signature(const PathView& path) {
     if (path.vertices.size() < 2)
         return UNDEFINED;
     double signature = 0, place = 1;
-    for (std::size_t i = 1; i + 1 < path.vertices.size(); ++i, place *= 3)
-        signature += place * read_interaction(path.vertices[i]);
+    for (std::size_t i = 1; i + 1 < path.vertices.size(); ++i, place *= 3) {
+        const std::uint32_t interaction = read_interaction(path.vertices[i]);
+        if (interaction == 0) // a map from arrays may not say
+            return UNDEFINED;
+        signature += place * interaction;
+    }
     return signature;
 }
 

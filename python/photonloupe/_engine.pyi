@@ -134,8 +134,13 @@ def find_neighbors(device: Device, photons: PhotonMap, points: Annotated[NDArray
     The k nearest photons of points, or of photons by id (n,); exactly one is not None. query: space, beta, center, low, high.
     """
 
-def set_parameters(device: Device, photons: PhotonMap, values: Annotated[NDArray[numpy.float32], dict(shape=(None, None), order='C', writable=False)], periods: Sequence[float]) -> None:
-    """Replace a map's parameters (n, m); a period of 0: it does not wrap."""
+def set_parameters(device: Device, photons: PhotonMap, values: Annotated[NDArray[numpy.float32], dict(shape=(None, None), order='C', writable=False)], axes: list) -> None:
+    """
+    Replace a map's parameters (n, m); of each: name, low, high, and a period, 0 where it does not wrap.
+    """
+
+def set_state(photons: PhotonMap, columns: dict) -> None:
+    """Give a map the checked columns that a relaxation left."""
 
 def set_paths(device: Device, photons: PhotonMap, columns: dict) -> None:
     """Give a map the checked path columns of its photons."""
@@ -222,3 +227,55 @@ def write_png(path: str, pixels: Annotated[NDArray[numpy.float32], dict(shape=(N
 def encode_png(pixels: Annotated[NDArray[numpy.float32], dict(shape=(None, None, 3), order='C', writable=False)], exposure: float, attributes: Mapping[str, str]) -> bytes: ...
 
 def read_png(path: str) -> tuple: ...
+
+def list_columns(photons: PhotonMap) -> list:
+    """
+    Every column a view can plot: name, label, period, discrete, needs_paths, missing.
+    """
+
+def find_column(device: Device, photons: PhotonMap, name: str, progress: object | None = None) -> dict:
+    """One column: name, label, values (n,), low, high, period, discrete."""
+
+def count_column(values: Annotated[NDArray[numpy.float32], dict(shape=(None,), order='C', writable=False)], bins: int, range: tuple[float, float] | None, bounds: tuple[float, float]) -> dict:
+    """
+    Histogram of values (n,): counts, edges, cdf, below, above, non_finite; bounds stand in for no range.
+    """
+
+def find_quantile(values: Annotated[NDArray[numpy.float32], dict(shape=(None,), order='C', writable=False)], share: float) -> float:
+    """The value that a share of the finite ones lie below."""
+
+def find_share_above(values: Annotated[NDArray[numpy.float32], dict(shape=(None,), order='C', writable=False)], threshold: float) -> float:
+    """Share of the finite values above a threshold."""
+
+def look_through_loupe(device: Device, photons: PhotonMap, query: dict, progress: object | None = None) -> dict:
+    """
+    What a loupe shows; query: point, normal, photon, k, space, beta, center, low, high.
+    """
+
+def read_path_lines(photons: PhotonMap, ids: Sequence[int]) -> list:
+    """(vertices (m, 3), interactions (m,)) of each photon's path."""
+
+def see_surfaces(device: Device, scene: Scene, settings: dict, progress: object | None = None) -> tuple:
+    """
+    (points and depth (p, 4), normals (p, 3), objects (p,)) by pixel; settings: camera, width, height.
+    """
+
+def find_voronoi_cells(device: Device, photons: PhotonMap, scene: Scene, settings: dict, progress: object | None = None) -> dict:
+    """
+    ids, depth, borders (h, w), pixels (h, w, 3); settings: camera, width, height, flatness, color.
+    """
+
+def find_kd_cells(device: Device, photons: PhotonMap, scene: Scene, settings: dict, progress: object | None = None) -> dict:
+    """
+    The same with nodes for ids, and boxes (node, photons, corners); settings: camera, width, height, depth.
+    """
+
+def plot_scatter(device: Device, photons: PhotonMap, settings: dict, selection: Sequence[int] | None) -> dict:
+    """
+    A scatter plot; settings: x, y, width, height, polar, color, x_range, y_range, dense_from.
+    """
+
+def map_errors(image: Annotated[NDArray[numpy.float32], dict(shape=(None, None, 3), order='C', writable=False)], reference: Annotated[NDArray[numpy.float32], dict(shape=(None, None, 3), order='C', writable=False)], relative: bool, full: float) -> dict:
+    """
+    Errors by pixel: pixels (h, w, 3), absolute, relative (h, w), rmse, relmse.
+    """

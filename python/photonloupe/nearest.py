@@ -92,13 +92,14 @@ def _check_layer(
         center = check_count("center", center, 0, len(photons) - 1)
         return {"beta": check_beta(beta, photons, progress), "center": center}
     assert ranges is not None
-    low, high = _read_ranges(photons.parameter_list, ranges)
+    low, high = read_ranges(photons.parameter_list, ranges)
     return {"low": low, "high": high}
 
 
-def _read_ranges(
+def read_ranges(
     parameters: tuple[Parameter, ...], ranges: Mapping[int | str, tuple[float, float]]
 ) -> tuple[list[float], list[float]]:
+    """Check ranges and spread them over all parameters; those not named have none."""
     largest = float(np.finfo(np.float32).max)
     low, high = [-largest] * len(parameters), [largest] * len(parameters)
     names = [parameter.name for parameter in parameters]

@@ -289,12 +289,22 @@ class PhotonMap(PhotonStages):
             raise PhotonLoupeError(
                 f"the script reads {missing[0]}, which this map does not have; give it to from_arrays"
             )
-        if self._has_uploaded_paths:
-            return native
-        paths = {name: np.ascontiguousarray(self._columns[name]) for name in PATH_NAMES if name in self._columns}
-        _engine.set_paths(open_device(self._device)._native, native, paths)
-        self._has_uploaded_paths = True
+        return self.upload_paths()
+
+    def upload_paths(self) -> _engine.PhotonMap:
+        """Return the map on the device with its paths, recorded now if need be; columns it lacks are empty."""
+        native = self.upload()
+        self._record_paths()
+        if not self._has_uploaded_paths:
+            paths = {name: np.ascontiguousarray(self._columns[name]) for name in PATH_NAMES if name in self._columns}
+            _engine.set_paths(open_device(self._device)._native, native, paths)
+            self._has_uploaded_paths = True
         return native
+
+    @property
+    def can_have_paths(self) -> bool:
+        """Whether the map holds paths, or may record them by tracing the same photons again."""
+        return "path_offsets" in self._columns or bool(self._settings)
 
     def take_script_columns(
         self,

@@ -16,7 +16,7 @@ from photonloupe.provenance import describe_origin
 from photonloupe.scene import Scene
 from photonloupe.tracing import MAX_SEED
 
-MODES = ("composite", "caustic", "direct", "photons", "false-color")
+MODES = ("composite", "caustic", "direct", "photons", "false-color", "voronoi")
 MAX_SIDE = 16_384
 MAX_SAMPLES = 65_536
 
@@ -53,7 +53,8 @@ def render(
     mode
         ``"composite"`` emission + direct light + map, ``"caustic"`` the map alone, ``"direct"`` direct light alone,
         ``"photons"`` the stored photons as dots, ``"false-color"`` the mean color a script gave the photons around
-        times the luminance of their irradiance.
+        times the luminance of their irradiance, ``"voronoi"`` the cells of the photons on the surfaces seen, in the
+        colors a script gave, else in one of its own each (`photonloupe.inspect.voronoi` tells which is which).
     k, kernel
         As in `PhotonMap.irradiance`.
     seed

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+// Binds engine/inspect: what is drawn by pixel — surfaces, cells, scatter plots, error maps.
+#include "binding.h"
+
+#include "estimate/camera_frame.h"
+#include "inspect/columns.h"
+#include "inspect/error_map.h"
+#include "inspect/kd_cells.h"
+#include "inspect/photon_colors.h"
+#include "inspect/scatter.h"
+#include "inspect/voronoi.h"
+
+namespace photonloupe::bindings {
+namespace {
+
+using namespace inspect;
+
+nb::dict describe_cells(CellImage cells, Image painted) {
+    nb::dict row;
+    row["pixels"] = own_pixels(std::move(painted.rgb), cells.height, cells.width);
+    row["ids"] = own_array(std::move(cells.ids), cells.width);
+    row["depth"] = own_array(std::move(cells.depth), cells.width);
+    row["borders"] = own_array(std::move(cells.is_border), cells.width);
+    return row;
+}
+
+// What of a view Python says; read before the GIL is given up.
+struct ViewAsked {
+    std::string camera;
+    std::uint32_t width = 0, height = 0;
+};
+
+ViewAsked read_view(const nb::dict& given) {
+    return {nb::cast<std::string>(given["camera"]), nb::cast<std::uint32_t>(given["width"]),
+            nb::cast<std::uint32_t>(given["height"])};
+}
+
+SurfaceView see(OpenDevice& open, const Scene& scene, const ViewAsked& asked, const Progress& progress) {
+    return see_surfaces(open.device, scene, *open.workbench.find_buffers(scene),
+                        frame_camera(scene, find_camera(scene, asked.camera), asked.width, asked.height), asked.width,
+                        asked.height, progress);
+}
+
+nb::tuple describe_surfaces(OpenDevice& open, const Scene& scene, const nb::dict& given, nb::object progress) {
+    const ViewAsked asked_view = read_view(given);
+    const SurfaceView view = PythonProgress(std::move(progress)).run([&](const Progress& asked) {
+        return see(open, scene, asked_view, asked);
+    });
+    std::vector<float> points, normals;
+    std::vector<std::int32_t> objects;
+    for (const glm::vec4& point : view.points.read<glm::vec4>(view.pixel_count()))
+        for (int axis = 0; axis < 4; ++axis)
+            points.push_back(axis < 3 ? static_cast<float>(point[axis] + view.origin[axis]) : point.w);
+    for (const glm::vec4& normal : view.normals.read<glm::vec4>(view.pixel_count())) {
+        normals.insert(normals.end(), {normal.x, normal.y, normal.z});
+        objects.push_back(std::bit_cast<std::int32_t>(normal.w));
+    }
+    return nb::make_tuple(own_array(std::move(points), 4), own_array(std::move(normals), 3),
+                          own_array(std::move(objects)));
+}
+
+nb::dict find_voronoi(OpenDevice& open, Photons& photons, const Scene& scene, const nb::dict& given,
+                      nb::object progress) {
+    const auto color = nb::cast<std::string>(given["color"]);
+    const VoronoiSettings settings{nb::cast<float>(given["flatness"])};
+    const ViewAsked asked_view = read_view(given);
+    CellImage cells;
+    Image painted = PythonProgress(std::move(progress)).run([&](const Progress& asked) {
+        const SurfaceView view = see(open, scene, asked_view, asked);
+        cells = find_voronoi_cells(open.device, photons.map, open.workbench.find_tree(photons, asked), view, settings,
+                                   asked);
+        return paint_cells(cells, find_photon_colors(open.workbench, photons, color, asked));
+    });
+    return describe_cells(std::move(cells), std::move(painted));
+}
+
+nb::list describe_boxes(const std::vector<NodeBox>& boxes, const std::array<double, 3>& origin) {
+    nb::list rows;
+    for (const NodeBox& box : boxes) {
+        std::array<double, 6> corners{};
+        for (int axis = 0; axis < 3; ++axis) {
+            corners[axis] = box.low[axis] + origin[axis];
+            corners[axis + 3] = box.high[axis] + origin[axis];
+        }
+        rows.append(nb::make_tuple(box.node, box.photon_count, corners));
+    }
+    return rows;
+}
+
+nb::dict find_kd(OpenDevice& open, Photons& photons, const Scene& scene, const nb::dict& given, nb::object progress) {
+    const auto depth = nb::cast<std::optional<std::uint32_t>>(given["depth"]);
+    const ViewAsked asked_view = read_view(given);
+    CellImage cells;
+    Image painted = PythonProgress(std::move(progress)).run([&](const Progress& asked) {
+        const SurfaceView view = see(open, scene, asked_view, asked);
+        const KdTree& tree = open.workbench.find_tree(photons, asked);
+        cells = find_kd_cells(open.device, photons.map, tree, view, depth, asked);
+        return paint_cells(cells, list_hash_colors(2ull << tree.leaf_level));
+    });
+    const KdTree& tree = open.workbench.find_tree(photons);
+    nb::dict row = describe_cells(std::move(cells), std::move(painted));
+    row["boxes"] = describe_boxes(list_node_boxes(tree, depth), photons.map.origin);
+    return row;
+}
+
+using Range2 = std::optional<std::pair<double, double>>;
+
+nb::dict plot(OpenDevice& open, Photons& photons, const nb::dict& given, std::optional<Selection> selection) {
+    ScatterSettings settings;
+    settings.width = nb::cast<std::uint32_t>(given["width"]);
+    settings.height = nb::cast<std::uint32_t>(given["height"]);
+    settings.is_polar = nb::cast<bool>(given["polar"]);
+    settings.x_range = nb::cast<Range2>(given["x_range"]);
+    settings.y_range = nb::cast<Range2>(given["y_range"]);
+    settings.dense_from = nb::cast<std::uint32_t>(given["dense_from"]);
+    const Column x = find_column(open.workbench, photons, nb::cast<std::string>(given["x"]));
+    const Column y = find_column(open.workbench, photons, nb::cast<std::string>(given["y"]));
+    const std::vector<glm::vec3> colors =
+        find_photon_colors(open.workbench, photons, nb::cast<std::string>(given["color"]));
+    ScatterPlot made = plot_scatter(x, y, colors, selection ? &*selection : nullptr, settings);
+    std::vector<double> pixels;
+    for (std::size_t i = 0; i < x.values.size(); ++i) {
+        const glm::dvec2 pixel = made.frame.to_pixel(x.values[i], y.values[i]);
+        pixels.insert(pixels.end(), {pixel.x, pixel.y});
+    }
+    nb::dict row;
+    row["rgba"] = own_array(std::move(made.rgba), 4);
+    row["pixels"] = own_array(std::move(pixels), 2);
+    row["x_label"] = x.label;
+    row["y_label"] = y.label;
+    row["x_range"] = made.frame.x_range();
+    row["y_range"] = made.frame.y_range();
+    row["drawn"] = made.drawn_count;
+    row["dense"] = made.is_dense;
+    row["to_data"] = nb::cpp_function([frame = made.frame](double column, double row_down) {
+        const glm::dvec2 data = frame.to_data({column, row_down});
+        return std::pair(data.x, data.y);
+    });
+    return row;
+}
+
+using Pixels = nb::ndarray<nb::numpy, const float, nb::shape<-1, -1, 3>, nb::c_contig>;
+
+Image take_image(const Pixels& pixels) {
+    return {static_cast<std::uint32_t>(pixels.shape(1)),
+            static_cast<std::uint32_t>(pixels.shape(0)),
+            std::vector<float>(pixels.data(), pixels.data() + pixels.size()),
+            {}};
+}
+
+nb::dict map_errors(const Pixels& a, const Pixels& b, bool is_relative, float full) {
+    ErrorMap map = measure_errors(take_image(a), take_image(b));
+    nb::dict row;
+    row["pixels"] = own_pixels(std::move(paint_errors(map, is_relative, full).rgb), map.height, map.width);
+    row["rmse"] = map.rmse;
+    row["relmse"] = map.relmse;
+    row["absolute"] = own_array(std::move(map.absolute), map.width);
+    row["relative"] = own_array(std::move(map.relative), map.width);
+    return row;
+}
+
+} // namespace
+
+void bind_inspect_images(nb::module_& module) {
+    module.def("see_surfaces", &describe_surfaces, nb::arg("device"), nb::arg("scene"), nb::arg("settings"),
+               nb::arg("progress").none() = nb::none(),
+               "(points and depth (p, 4), normals (p, 3), objects (p,)) by pixel; settings: camera, width, height.");
+    module.def("find_voronoi_cells", &find_voronoi, nb::arg("device"), nb::arg("photons"), nb::arg("scene"),
+               nb::arg("settings"), nb::arg("progress").none() = nb::none(),
+               "ids, depth, borders (h, w), pixels (h, w, 3); settings: camera, width, height, flatness, color.");
+    module.def(
+        "find_kd_cells", &find_kd, nb::arg("device"), nb::arg("photons"), nb::arg("scene"), nb::arg("settings"),
+        nb::arg("progress").none() = nb::none(),
+        "The same with nodes for ids, and boxes (node, photons, corners); settings: camera, width, height, depth.");
+    module.def("plot_scatter", &plot, nb::arg("device"), nb::arg("photons"), nb::arg("settings"),
+               nb::arg("selection").none(),
+               "A scatter plot; settings: x, y, width, height, polar, color, x_range, y_range, dense_from.");
+    module.def("map_errors", &map_errors, nb::arg("image"), nb::arg("reference"), nb::arg("relative"), nb::arg("full"),
+               "Errors by pixel: pixels (h, w, 3), absolute, relative (h, w), rmse, relmse.");
+}
+
+} // namespace photonloupe::bindings

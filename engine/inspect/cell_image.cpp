@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Borders and colors of cells, on the host.
+#include "inspect/cell_image.h"
+
+#include "image/png.h"
+
+namespace photonloupe::inspect {
+
+void find_borders(CellImage& image) {
+    image.is_border.assign(image.ids.size(), 0);
+    for (std::size_t row = 0; row < image.height; ++row)
+        for (std::size_t column = 0; column < image.width; ++column) {
+            const std::size_t at = row * image.width + column;
+            const bool differs_right = column + 1 < image.width && image.ids[at] != image.ids[at + 1];
+            const bool differs_below = row + 1 < image.height && image.ids[at] != image.ids[at + image.width];
+            image.is_border[at] = differs_right || differs_below;
+        }
+}
+
+Image paint_cells(const CellImage& image, std::span<const glm::vec3> colors, const CellPaint& paint) {
+    Image painted{image.width, image.height, {}, {}};
+    painted.rgb.reserve(3 * image.ids.size());
+    for (std::size_t at = 0; at < image.ids.size(); ++at) {
+        const std::int32_t id = image.ids[at];
+        const bool has_cell = id >= 0 && static_cast<std::size_t>(id) < colors.size();
+        const bool is_border = paint.draws_borders && image.is_border[at] != 0;
+        const glm::vec3 color = is_border ? paint.border : has_cell ? colors[id] : paint.background;
+        painted.rgb.insert(painted.rgb.end(), {color.r, color.g, color.b});
+    }
+    return painted;
+}
+
+std::vector<std::uint8_t> encode_rgba8(const Image& image) {
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(image.rgb.size() / 3 * 4);
+    for (std::size_t at = 0; at < image.rgb.size(); at += 3) {
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            bytes.push_back(encode_srgb(image.rgb[at + channel], 0.0));
+        bytes.push_back(255);
+    }
+    return bytes;
+}
+
+} // namespace photonloupe::inspect

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// A linear color per photon or cell, for whoever draws them.
+#pragma once
+
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "inspect/colormap.h"
+#include "inspect/column.h"
+#include "photons/photon_map.h"
+
+namespace photonloupe::inspect {
+
+// Linear light of an sRGB color.
+glm::vec3 linearize(const glm::vec3& srgb);
+
+// Of a number: the same on every run, neighbours apart.
+glm::vec3 hash_color(std::uint32_t id);
+std::vector<glm::vec3> list_hash_colors(std::uint64_t count);
+
+// The false colors that a script gave (grey where it did not), else those of the ids.
+std::vector<glm::vec3> list_encoded_colors(const PhotonMap& photons);
+
+// Periodic columns by twilight over their period, others by cividis over low … high.
+std::vector<glm::vec3> list_column_colors(const Column& column);
+std::vector<glm::vec3> list_column_colors(const Column& column, Colormap map);
+
+} // namespace photonloupe::inspect

@@ -1,0 +1,249 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The loupe: the photons around a place, and what is worth knowing of the one at its center."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from photonloupe import _engine
+from photonloupe.checks import check_choice, check_count, check_vectors
+from photonloupe.device import open_device
+from photonloupe.errors import ArgumentError
+from photonloupe.nearest import MAX_NEIGHBORS, SPACES, read_ranges
+from photonloupe.photons import PhotonMap
+from photonloupe.progress import ProgressLike, follow_progress
+from photonloupe.relaxing import check_beta
+
+Floats = NDArray[np.float32]
+
+
+@dataclass(frozen=True)
+class LoupeNumbers:
+    """What is known of the photon at the center; NaN: undefined, or not measured.
+
+    Attributes
+    ----------
+    position, power
+        (3,) m, (3,) W.
+    parameters
+        By name.
+    interactions, signature
+        ``"RT"``: reflected, then transmitted; the same as a number, [SJL15] eq. 2.
+    tortuosity, path_length
+        [SJL15] eq. 1; m.
+    one_sidedness, drift, pressure
+        c_m, m, |f'|/r.
+    """
+
+    position: NDArray[np.float64]
+    power: Floats
+    parameters: dict[str, float]
+    interactions: str
+    signature: float
+    tortuosity: float
+    path_length: float
+    one_sidedness: float
+    drift: float
+    pressure: float
+
+
+@dataclass(frozen=True)
+class PathLine:
+    """One photon's path: vertices (m, 3), m, and interactions (m,), 1 reflected, 2 transmitted, 0 at the ends."""
+
+    photon: int
+    vertices: Floats
+    interactions: NDArray[np.uint8]
+
+
+@dataclass(frozen=True)
+class LoupeView:
+    """What a loupe shows.
+
+    Attributes
+    ----------
+    center
+        Photon at the center: the nearest of that surface, or the one asked for; None in an empty map.
+    ids, distances
+        (m,) up to k photons, nearest first, ties by id; m, or in parameter space.
+    radius
+        World distance of the farthest of them, m.
+    positions, colors
+        (m, 3) m; (m, 3) linear, None where the map has none.
+    has_constraint
+        Whether `basis` and `freedom` are the map's constraint; else the basis is `eigenvectors` and nothing is fixed.
+    basis, freedom
+        (2, 3) u_b, v_b of the center; (2,) 1 - w_u and 1 - w_v.
+    eigenvalues, eigenvectors, isotropy
+        (2,) λ₁ and λ₂, m²; (2, 3); t = √(λ₂/λ₁), [SJL15] eq. 5: of the photons found, in the center's tangent plane.
+    ellipse_axes, ellipse_half_axes
+        (m, 2, 3) u_b, v_b and (m, 2) |D·u_b|, |D·v_b| of the photons found, m (METHODS section 5.5); no rows where the
+        map was not relaxed.
+    numbers
+        Of the center.
+    paths
+        Polylines of the nearest, as many as were asked for.
+    """
+
+    center: int | None
+    ids: NDArray[np.uint32]
+    distances: Floats
+    radius: float
+    positions: Floats
+    colors: Floats | None
+    has_constraint: bool
+    basis: Floats
+    freedom: tuple[float, float]
+    eigenvalues: tuple[float, float]
+    eigenvectors: Floats
+    isotropy: float
+    ellipse_axes: Floats
+    ellipse_half_axes: Floats
+    numbers: LoupeNumbers
+    paths: tuple[PathLine, ...]
+
+
+def loupe(
+    photons: PhotonMap,
+    point: ArrayLike | int,
+    k: int = 250,
+    space: str = "world",
+    beta: float | str = 3.0,
+    center: int | None = None,
+    ranges: Mapping[int | str, tuple[float, float]] | None = None,
+    *,
+    normal: ArrayLike | None = None,
+    paths: int = 0,
+    progress: ProgressLike = None,
+) -> LoupeView:
+    """Look at the photons around a place ([SJL15] section 4, figures 7 and 8).
+
+    Parameters
+    ----------
+    photons
+        The map; its paths are recorded now, where it can have them.
+    point
+        (3,) world, m, or the id of a photon, which then is not its own neighbor.
+    k
+        How many photons, 1 to 1000.
+    space
+        ``"world"``; ``"parameter"``: nearest to the center in parameter space; ``"constrained"``: nearest in the world
+        among the center's layer, as `PhotonMap.neighbors` has it.
+    beta
+        β of the layer, or ``"auto"`` for `optimal_beta`.
+    center
+        Constrained space around a point: the layer is locked to that of this photon (figure 7 i).
+    ranges
+        Instead: the layer is all photons whose parameters lie within, ``{name or dimension: (low, high)}``.
+    normal
+        (3,) of the surface at the point: the center is sought among photons that face the same way.
+    paths
+        How many of the nearest photons' paths to give.
+    progress
+        True for a bar, or a callback ``(stage, fraction)`` that returns False to stop.
+
+    Returns
+    -------
+    LoupeView
+
+    Raises
+    ------
+    ArgumentError
+        If the point is not finite, an id is not a photon, k is out of range, or the space lacks what it needs.
+
+    Examples
+    --------
+    >>> import numpy as np, photonloupe as pl
+    >>> line = np.array([[0.0, 0, 0], [1, 0, 0], [3, 0, 0]])
+    >>> photons = pl.PhotonMap.from_arrays(positions=line, normals=[[0, 1, 0]] * 3, power=np.ones((3, 3)))
+    >>> view = pl.inspect.loupe(photons, [0.9, 0, 0], k=2)
+    >>> view.center, view.ids.tolist()
+    (1, [1, 0])
+    """
+    if not isinstance(photons, PhotonMap):
+        raise ArgumentError(f"photons must be a PhotonMap, not {photons!r}")
+    check_choice("space", space, SPACES)
+    if space != "constrained" and (center is not None or ranges is not None):
+        raise ArgumentError('center and ranges lock the layer of space="constrained"')
+    if space != "world" and "parameters" not in photons.recorded:
+        raise ArgumentError(f'space="{space}" needs parameters; set_parameters() or a script sets them')
+    query = {"k": check_count("k", k, 1, MAX_NEIGHBORS), "space": space, "beta": 0.0}
+    query.update(_check_place(photons, point, normal))
+    query.update(_check_layer(photons, query["photon"] is not None, space, beta, center, ranges, progress))
+    line_count = check_count("paths", paths, 0, MAX_NEIGHBORS)
+    if line_count and not photons.can_have_paths:
+        raise ArgumentError("this map has no paths and cannot record them; give them to from_arrays")
+    native = photons.upload_paths() if photons.can_have_paths else photons.upload()
+    with follow_progress(progress) as callback:
+        row = _engine.look_through_loupe(open_device(photons.device)._native, native, query, callback)
+    return _make_view(native, row, line_count)
+
+
+def _check_place(photons: PhotonMap, point: ArrayLike | int, normal: ArrayLike | None) -> dict[str, Any]:
+    """Tell a photon from a point."""
+    if isinstance(point, int | np.integer) and not isinstance(point, bool):
+        if len(photons) == 0:
+            raise ArgumentError(f"the map is empty; it has no photon {point}")
+        return {"photon": check_count("point", int(point), 0, len(photons) - 1), "point": None, "normal": None}
+    place = _check_vector("point", point)
+    facing = None
+    if normal is not None:
+        facing = _check_vector("normal", normal)
+        length = float(np.linalg.norm(facing))
+        if length == 0.0:
+            raise ArgumentError("normal is zero; a normal needs a direction")
+        facing = facing / length
+    return {"photon": None, "point": place.tolist(), "normal": None if facing is None else facing.tolist()}
+
+
+def _check_vector(name: str, value: ArrayLike) -> NDArray[np.float64]:
+    try:
+        given = np.asarray(value)
+    except ValueError:
+        given = np.empty(0)
+    if given.shape != (3,) or given.dtype.kind not in "iuf":
+        raise ArgumentError(f"{name} must be three numbers of shape (3,), not {value!r}")
+    return check_vectors(name, given[None])[0]
+
+
+def _check_layer(
+    photons: PhotonMap,
+    has_id: bool,
+    space: str,
+    beta: float | str,
+    center: int | None,
+    ranges: Mapping[int | str, tuple[float, float]] | None,
+    progress: ProgressLike,
+) -> dict[str, Any]:
+    layer: dict[str, Any] = {"center": None, "low": None, "high": None}
+    if space != "constrained":
+        return layer
+    if has_id and (center is not None or ranges is not None):
+        raise ArgumentError("a photon has a layer of its own; center and ranges lock the layer around a point")
+    if center is not None and ranges is not None:
+        raise ArgumentError("center and ranges both lock the layer; give one of them")
+    if ranges is not None:
+        layer["low"], layer["high"] = read_ranges(photons.parameter_list, ranges)
+        return layer
+    layer["beta"] = check_beta(beta, photons, progress)
+    if center is not None:
+        layer["center"] = check_count("center", center, 0, len(photons) - 1)
+    return layer
+
+
+def _make_view(native: _engine.PhotonMap, row: dict[str, Any], line_count: int) -> LoupeView:
+    numbers = row.pop("numbers")
+    numbers["position"] = np.array(numbers["position"], dtype=np.float64)
+    numbers["power"] = np.array(numbers["power"], dtype=np.float32)
+    ids = row["ids"][:line_count]
+    lines = _engine.read_path_lines(native, ids.tolist()) if len(ids) else []
+    return LoupeView(
+        **row,
+        numbers=LoupeNumbers(**numbers),
+        paths=tuple(PathLine(int(photon), *line) for photon, line in zip(ids, lines, strict=True)),
+    )
