@@ -40,6 +40,7 @@ const std::map<std::string, Factors> FACTORS{
     {"estimate/estimate_irradiance.comp", {KERNELS, CAPACITY, BLOCK, NETWORK, LOAD, STORE}},
     {"estimate/select_irradiance.comp", {KERNELS}},
     {"estimate/trace_eye.comp", {MIRROR, DIELECTRIC, ABSORPTION}},
+    {"inspect/count_crossings.comp", {{"", "RAGGED"}}},
     {"photons/find_neighbors.comp", {CAPACITY, BLOCK, NETWORK, LOAD, STORE, SPACES, SOME_PARAMETERS}},
     {"photons/find_parameter_radius.comp", {SHELL, SOME_PARAMETERS, PERIODIC, SINGLY}},
     {"photons/gather_parameters.comp", {{"PARAMETER_ROWS 2u"}}},

@@ -10,6 +10,7 @@
 #include "gpu/kernel_source.h"
 #include "gpu/kernel_variants.h"
 #include "gpu/reflect_spirv.h"
+#include "shared/parallel.h"
 #include "shared/photons.h"
 #include "shared/relax.h"
 #include "shared/render.h"
@@ -28,7 +29,8 @@ const std::map<std::string, HostStruct> HOST_STRUCTS{
     STRUCT(PathSummary),      STRUCT(BalanceSum),      STRUCT(TreeNode),       STRUCT(TreeBuild),
     STRUCT(NeighborQuery),    STRUCT(CameraFrame),     STRUCT(EyeSettings),    STRUCT(FilmSettings),
     STRUCT(PlotSettings),     STRUCT(TreeRefit),       STRUCT(GatherSettings), STRUCT(RepelSettings),
-    STRUCT(DescribeSettings), STRUCT(MoveSettings),
+    STRUCT(DescribeSettings), STRUCT(MoveSettings),    STRUCT(CrossingJob),    STRUCT(CrossingSettings),
+    STRUCT(CoverageSettings), STRUCT(BlendSettings),   STRUCT(PixelSettings),
 };
 
 std::vector<std::uint32_t> compile(const KernelVariant& variant, std::uint64_t by_address = 0) {

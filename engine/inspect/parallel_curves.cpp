@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Points and tangents of the curves.
+#include "inspect/parallel_curves.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace photonloupe::inspect {
+namespace {
+
+// Weighted harmonic mean of the two slopes, 0 at an extreme: Fritsch and Butland 1984, within Fritsch and Carlson's
+// bounds (1980) for a monotone cubic.
+float find_inner_tangent(float before, float after, float width_before, float width_after) {
+    if (!(before * after > 0))
+        return 0;
+    const float weight_before = width_before + 2 * width_after;
+    const float weight_after = 2 * width_before + width_after;
+    return (weight_before + weight_after) / (weight_before / before + weight_after / after);
+}
+
+// Where a run of points ends the curve does not bend; at most 1.5 times the slope, so monotone too.
+float find_end_tangent(float slope, float inner) {
+    return (3 * slope - inner) / 2;
+}
+
+// What `build_curves` works on for one photon, over the gaps of a run without missing values.
+struct Run {
+    std::span<const glm::vec2> points;
+    std::span<glm::vec2> tangents;
+    float tension;
+
+    float width(std::size_t gap) const { return points[gap + 1].x - points[gap].x; }
+    float slope(std::size_t gap) const { return (points[gap + 1].y - points[gap].y) / width(gap); }
+};
+
+void set_tangents(const Run& run) {
+    const std::size_t gap_count = run.tangents.size();
+    for (std::size_t gap = 0; gap < gap_count; ++gap)
+        run.tangents[gap] = glm::vec2(run.slope(gap));
+    if (gap_count < 2 || run.tension == 0)
+        return;
+    float before = run.tangents[0].x;
+    for (std::size_t gap = 1; gap < gap_count; ++gap) {
+        const float after = run.tangents[gap].x;
+        const float inner = find_inner_tangent(before, after, run.width(gap - 1), run.width(gap));
+        run.tangents[gap - 1].y = before + run.tension * (inner - before);
+        run.tangents[gap].x = after + run.tension * (inner - after);
+        before = after;
+    }
+    run.tangents.front().x = find_end_tangent(run.slope(0), run.tangents.front().y);
+    run.tangents.back().y = find_end_tangent(run.slope(gap_count - 1), run.tangents.back().x);
+}
+
+void set_tangents_between_gaps(std::span<const glm::vec2> points, std::span<glm::vec2> tangents, float tension) {
+    for (std::size_t first = 0; first < points.size();) {
+        std::size_t end = first;
+        while (end < points.size() && !std::isnan(points[end].x))
+            ++end;
+        if (end > first + 1)
+            set_tangents({points.subspan(first, end - first), tangents.subspan(first, end - first - 1), tension});
+        first = std::max(end, first + 1);
+    }
+}
+
+} // namespace
+
+Curves build_curves(std::span<const Column> columns, std::span<const Axis> axes, const AxisLayout& layout,
+                    Selection photons, float tension) {
+    Curves curves{std::move(photons), axes.size(), {}, {}, 0};
+    const std::size_t axis_count = axes.size(), gap_count = curves.gap_count();
+    curves.points.resize(curves.count() * axis_count);
+    curves.tangents.assign(curves.count() * gap_count, glm::vec2(NAN));
+    for (std::size_t a = 0; a < axis_count; ++a) {
+        const std::vector<float>& values = columns[axes[a].column].values;
+        for (std::size_t i = 0; i < curves.count(); ++i)
+            curves.points[i * axis_count + a] = find_value_point(axes[a], layout.places[a], values[curves.photons[i]]);
+    }
+    for (std::size_t i = 0; i < curves.count(); ++i) {
+        const std::span points(&curves.points[i * axis_count], axis_count);
+        curves.broken_count += std::any_of(points.begin(), points.end(), [](glm::vec2 p) { return std::isnan(p.x); });
+        if (gap_count > 0)
+            set_tangents_between_gaps(points, {&curves.tangents[i * gap_count], gap_count}, tension);
+    }
+    return curves;
+}
+
+std::array<glm::vec2, 4> find_bezier(const Curves& curves, std::size_t curve, std::size_t gap) {
+    const glm::vec2 tangents = curves.tangents[curve * curves.gap_count() + gap];
+    const glm::vec2 from = curves.points[curve * curves.axis_count + gap];
+    const glm::vec2 to = curves.points[curve * curves.axis_count + gap + 1];
+    const float third = (to.x - from.x) / 3;
+    return {from, from + third * glm::vec2(1, tangents.x), to - third * glm::vec2(1, tangents.y), to};
+}
+
+float find_height(const Curves& curves, std::size_t curve, std::size_t gap, float x) {
+    const auto [from, from_handle, to_handle, to] = find_bezier(curves, curve, gap);
+    const float t = (x - from.x) / (to.x - from.x), s = 1 - t;
+    return s * s * (s * from.y + 3 * t * from_handle.y) + t * t * (3 * s * to_handle.y + t * to.y);
+}
+
+} // namespace photonloupe::inspect
