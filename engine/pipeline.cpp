@@ -213,12 +213,16 @@ gpu::Buffer Workbench::estimate_irradiance(Photons& photons, std::span<const glm
         gpu::make_buffer(m_device, normals, "normals"), order_points(points), settings, progress);
 }
 
+inspect::SurfaceView Workbench::see_surfaces(const Scene& scene, const shared::CameraFrame& camera, std::uint32_t width,
+                                             std::uint32_t height, const Progress& progress) {
+    return inspect::see_surfaces(m_device, scene, *find_buffers(scene), camera, width, height, progress);
+}
+
 Image Workbench::render_voronoi(const Scene& scene, Photons& photons, const RenderSettings& settings,
                                 const Progress& progress) {
     const shared::CameraFrame camera =
         frame_camera(scene, find_camera(scene, settings.camera), settings.width, settings.height);
-    const inspect::SurfaceView view =
-        inspect::see_surfaces(m_device, scene, *find_buffers(scene), camera, settings.width, settings.height, progress);
+    const inspect::SurfaceView view = see_surfaces(scene, camera, settings.width, settings.height, progress);
     const inspect::CellImage cells = inspect::find_voronoi_cells(m_device, photons.map, find_tree(photons, progress),
                                                                  view, {settings.estimate.flatness}, progress);
     return inspect::paint_cells(cells, inspect::list_encoded_colors(photons.map));

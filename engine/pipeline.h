@@ -9,6 +9,7 @@
 #include <span>
 
 #include "estimate/render_image.h"
+#include "inspect/surface_view.h"
 #include "photons/layered_queries.h"
 #include "relax/isotropy.h"
 #include "relax/relaxation.h"
@@ -92,6 +93,10 @@ public:
 
     // The scene on the device, kept until another one is asked for.
     std::shared_ptr<const SceneBuffers> find_buffers(const Scene& scene);
+
+    // What a camera sees of the scene, for looking at photons on it.
+    inspect::SurfaceView see_surfaces(const Scene& scene, const shared::CameraFrame& camera, std::uint32_t width,
+                                      std::uint32_t height, const Progress& progress = {});
 
     gpu::Device& device() { return m_device; }
 

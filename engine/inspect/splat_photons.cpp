@@ -14,9 +14,8 @@ constexpr std::uint64_t GRANULE = 4096;
 
 // What is absent still has to be bound.
 gpu::Buffer upload_or_empty(gpu::Device& device, std::span<const std::uint32_t> values, const char* purpose) {
-    return gpu::make_buffer(device, values.empty() ? std::span<const std::uint32_t>(std::array<std::uint32_t, 4>{})
-                                                   : values,
-                            purpose);
+    return gpu::make_buffer(
+        device, values.empty() ? std::span<const std::uint32_t>(std::array<std::uint32_t, 4>{}) : values, purpose);
 }
 
 shared::SplatSettings describe_splats(const PhotonMap& photons, const SplatView& view, const SplatStyle& style) {
@@ -76,17 +75,16 @@ gpu::Buffer splat_photons(gpu::Device& device, const PhotonMap& photons, const S
     resolve.has_surface = push.has_surface;
     resolve.unit = push.unit;
     resolve.strength = style.strength;
-    gpu::run_in_chunks(device, "draw points", pixel_count, GRANULE, progress,
-                       [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
-                           resolve.first = static_cast<std::uint32_t>(first);
-                           resolve.count = static_cast<std::uint32_t>(count);
-                           commands.dispatch({"inspect/resolve_splats.comp", 64, {}, {}},
-                                             {{"sums", sums},
-                                              {"surface_points", points},
-                                              {"surface_normals", normals},
-                                              {"pixels", pixels}},
-                                             resolve, count);
-                       });
+    gpu::run_in_chunks(
+        device, "draw points", pixel_count, GRANULE, progress,
+        [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
+            resolve.first = static_cast<std::uint32_t>(first);
+            resolve.count = static_cast<std::uint32_t>(count);
+            commands.dispatch(
+                {"inspect/resolve_splats.comp", 64, {}, {}},
+                {{"sums", sums}, {"surface_points", points}, {"surface_normals", normals}, {"pixels", pixels}}, resolve,
+                count);
+        });
     return pixels;
 }
 

@@ -14,10 +14,10 @@ namespace photonloupe::inspect {
 struct SurfaceView;
 
 struct SplatStyle {
-    float radius = 1.0f;         // of a point, pixels
-    float strength = 0.5f;       // optical depth of one point
-    glm::vec3 background{0.1f};  // sRGB, as the rest
-    glm::vec3 plain{0.92f};      // of points without a color
+    float radius = 1.0f;        // of a point, pixels
+    float strength = 0.5f;      // optical depth of one point
+    glm::vec3 background{0.1f}; // sRGB, as the rest
+    glm::vec3 plain{0.92f};     // of points without a color
 };
 
 // Where the camera stands; without a surface view nothing hides photons.

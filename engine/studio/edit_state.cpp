@@ -62,7 +62,15 @@ void run_script(Workspace& workspace) {
 }
 
 void open_next_example(Workspace& workspace) {
-    workspace.requests.push_back("next_example");
+    if (workspace.examples.empty()) {
+        workspace.say("no example scripts were found");
+        return;
+    }
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < workspace.examples.size(); ++i)
+        if (workspace.examples[i].path == workspace.state.script.path)
+            next = (i + 1) % workspace.examples.size();
+    open_script(workspace, workspace.examples[next].path, workspace.examples[next].text);
 }
 
 void open_script(Workspace& workspace, const std::string& path, const std::string& text) {

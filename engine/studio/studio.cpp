@@ -60,8 +60,8 @@ private:
 
 } // namespace
 
-Studio::Studio(gpu::Device& device, Workbench& bench, const StudioOptions& options)
-    : m_workspace(device, bench), m_canvas(device, check_options(options).width, options.height) {
+Studio::Studio(gpu::Device& device, const StudioOptions& options)
+    : m_bench(device), m_workspace(device, m_bench), m_canvas(device, check_options(options).width, options.height) {
     IMGUI_CHECKVERSION();
     m_context = ImGui::CreateContext();
     m_plots = ImPlot::CreateContext();
@@ -160,7 +160,7 @@ void Studio::lay_out() {
     ImGui::End();
     run_pressed_commands(m_workspace);
     m_panels.draw(m_workspace);
-    if (!ImGui::IsAnyItemActive() && !ImGui::IsMouseDown(0))
+    if (!ImGui::IsAnyItemActive() && !ImGui::IsMouseDown(0) && !ImGui::GetIO().WantTextInput)
         m_workspace.history.end_gesture();
 }
 
@@ -229,7 +229,7 @@ std::vector<std::uint32_t> Studio::read_image() {
 std::vector<std::uint32_t> Studio::read_panel(const std::string& name, std::uint32_t width, std::uint32_t height,
                                               float scale) {
     require_panel(name);
-    Studio alone(m_workspace.device, m_workspace.bench, {width, height, scale, true, {}});
+    Studio alone(m_workspace.device, {width, height, scale, true, {}});
     Workspace& copy = alone.m_workspace;
     copy.solo = name;
     copy.state = m_workspace.state;

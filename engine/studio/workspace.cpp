@@ -56,8 +56,8 @@ Photons* Workspace::shown() const {
     return shown(state.view.shows_relaxed);
 }
 
-const inspect::Column& Workspace::find_column(const std::string& name) {
-    Photons* photons = shown();
+const inspect::Column& Workspace::find_column(const std::string& name, Photons* photons) {
+    photons = photons ? photons : shown();
     if (!photons)
         throw Error("there are no photons yet; open a scene");
     const ColumnKey key{photons, name};
@@ -67,9 +67,9 @@ const inspect::Column& Workspace::find_column(const std::string& name) {
     return m_columns[key] = inspect::find_column(bench, *photons, name);
 }
 
-const inspect::Column* Workspace::seek_column(const std::string& name, std::string& missing) {
+const inspect::Column* Workspace::seek_column(const std::string& name, std::string& missing, Photons* photons) {
     try {
-        return &find_column(name);
+        return &find_column(name, photons);
     } catch (const Error& error) {
         missing = error.what();
         return nullptr;
@@ -87,9 +87,9 @@ const std::vector<inspect::ColumnInfo>& Workspace::list_columns() {
     return infos;
 }
 
-const std::vector<std::uint32_t>& Workspace::find_colors(const std::string& name) {
+const std::vector<std::uint32_t>& Workspace::find_colors(const std::string& name, Photons* photons) {
     static const std::vector<std::uint32_t> none;
-    Photons* photons = shown();
+    photons = photons ? photons : shown();
     if (!photons)
         return none;
     const ColumnKey key{photons, name};
@@ -97,7 +97,7 @@ const std::vector<std::uint32_t>& Workspace::find_colors(const std::string& name
     if (found != m_colors.end())
         return found->second;
     std::string missing;
-    const inspect::Column* column = name == ENCODING ? nullptr : seek_column(name, missing);
+    const inspect::Column* column = name == ENCODING ? nullptr : seek_column(name, missing, photons);
     return m_colors[key] = name == ENCODING ? pack_encoding(photons->map)
                            : column         ? pack_column(*column)
                                             : std::vector<std::uint32_t>{};

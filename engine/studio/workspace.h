@@ -25,6 +25,12 @@ struct WidgetBox {
     float x = 0, y = 0, width = 0, height = 0;
 };
 
+// A script to begin with.
+struct ExampleScript {
+    std::string path;
+    std::string text;
+};
+
 // The work in progress, as the status line shows it.
 struct Activity {
     bool is_running = false;
@@ -44,6 +50,7 @@ struct Workspace {
     DoneWork done;
     Activity activity;
     ScriptDocument script;
+    std::vector<ExampleScript> examples;
     Fonts fonts;
     PixelShow pixels;          // images of panels
     bool is_offscreen = false; // fixed clock, no timings shown, nothing blinks
@@ -62,7 +69,10 @@ struct Workspace {
     std::optional<inspect::LoupeView> loupe; // what it sees now
     std::string loupe_missing;               // why it sees nothing
     std::map<std::uint32_t, inspect::LoupeView> pinned;
-    std::uint64_t loupe_version = 0; // rises when `loupe` changes
+    std::optional<glm::vec3> loupe_normal;  // of the surface under the cursor
+    std::uint64_t loupe_version = 0;        // rises when what it is asked changes
+    std::uint64_t loupe_result_version = 0; // rises when `loupe` changes
+    std::string loupe_key;                  // of what `loupe` was asked
     std::uint64_t selection_version = 0;
 
     std::map<std::string, WidgetBox> widgets;
@@ -85,13 +95,13 @@ struct Workspace {
         message_is_error = is_error;
     }
 
-    // A column of the photons in view, computed once. Throws Error as find_column does.
-    const inspect::Column& find_column(const std::string& name);
+    // A column of the photons in view, or of those given, computed once. Throws Error as find_column does.
+    const inspect::Column& find_column(const std::string& name, Photons* photons = nullptr);
     // The same, or null with what to do in `missing`.
-    const inspect::Column* seek_column(const std::string& name, std::string& missing);
+    const inspect::Column* seek_column(const std::string& name, std::string& missing, Photons* photons = nullptr);
     const std::vector<inspect::ColumnInfo>& list_columns();
     // sRGB colors of photons, by id: the script's encoding, or a column through a color map. Empty: grey.
-    const std::vector<std::uint32_t>& find_colors(const std::string& name);
+    const std::vector<std::uint32_t>& find_colors(const std::string& name, Photons* photons = nullptr);
 
     // Selects; null: nothing. Not a command: `change` calls it.
     void select(Ids ids);
