@@ -57,12 +57,15 @@ struct Workspace {
     float scale = 1.0f;        // of the monitor
     std::uint64_t frame = 0;
     double frame_milliseconds = 0;
-    std::vector<double> loupe_times, plot_times; // milliseconds, of this frame
-    std::string message;                         // the last thing that went wrong, or right; empty: none
+    std::vector<double> loupe_times, plot_times;      // milliseconds, of this frame
+    std::map<std::string, double> stage_milliseconds; // of the last work
+    std::string open_path;                            // in the status line's field
+    std::string message;                              // the last thing that went wrong, or right; empty: none
     bool message_is_error = false;
     bool wants_render = false; // the Image panel's
     bool wants_isotropy = false;
     bool shows_keys = false;
+    std::string focus;      // a panel to bring to the front; empty: none
     std::string solo;       // the only panel, filling the window: exports; empty: all
     bool is_settled = true; // views have nothing left to refine
 

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lays out the image's panel; an open panel asks for the render.
+#include "studio/image_panel.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "studio/tone_map.h"
+#include "studio/widgets.h"
+
+namespace photonloupe::studio {
+namespace {
+
+template <class Change>
+void edit(Workspace& workspace, const char* name, const Change& make) {
+    workspace.change(name, [&](StudioState& state) { make(state.image); });
+}
+
+} // namespace
+
+void ImagePanel::draw_choices(Workspace& workspace) {
+    const ImageState& now = workspace.state.image;
+    ImageState image = now;
+    const float half = 0.5f * ImGui::GetContentRegionAvail().x;
+    ImGui::PushItemWidth(0.32f * ImGui::GetContentRegionAvail().x);
+    if (ui::slide(workspace, "Image/Exposure", "exposure", image.exposure, -10, 10, "%.2f stops"))
+        edit(workspace, "exposure", [&](ImageState& state) { state.exposure = image.exposure; });
+    ImGui::SameLine(half);
+    const int tone = ui::choose(workspace, "Image/Tone", "tone", now.tone, {"srgb", "filmic"});
+    if (tone >= 0)
+        edit(workspace, "tone", [&](ImageState& state) { state.tone = tone == 0 ? "srgb" : "filmic"; });
+    if (ui::slide(workspace, "Image/k", "k", image.k, 4, 500, true))
+        edit(workspace, "image k", [&](ImageState& state) { state.k = image.k; });
+    ImGui::SameLine(half);
+    if (ui::slide(workspace, "Image/Samples", "samples", image.samples, 1, 64, true))
+        edit(workspace, "samples", [&](ImageState& state) { state.samples = image.samples; });
+    if (ui::slide(workspace, "Image/Overlay", "false color", image.overlay, 0, 1, "%.2f"))
+        edit(workspace, "false color", [&](ImageState& state) { state.overlay = image.overlay; });
+    ImGui::SameLine(half);
+    const int shown = ui::choose(workspace, "Image/Shows", "show", now.shows, {"image", "reference", "error"});
+    if (shown >= 0)
+        edit(workspace, "shown image", [&](ImageState& state) {
+            state.shows = shown == 0 ? "image" : shown == 1 ? "reference" : "error";
+        });
+    ImGui::PopItemWidth();
+    if (ui::button(workspace, "Image/Compare", "Compare", "Load the reference named on the right (EXR, 640 × 480)"))
+        edit(workspace, "reference", [&](ImageState& state) { state.reference = m_reference; });
+    ImGui::SameLine();
+    if (ui::button(workspace, "Image/Store", "Store", "Keep this picture as the reference (B of A/B)"))
+        workspace.requests.push_back("store_reference");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-1);
+    ImGui::InputTextWithHint("##reference", "reference.exr", &m_reference);
+    ui::mark(workspace, "Image/Reference");
+}
+
+void ImagePanel::draw_numbers(const Workspace& workspace) {
+    if (!workspace.results.comparison)
+        return;
+    const ComparisonResult& comparison = *workspace.results.comparison;
+    ImGui::Text("RMSE %.4g   relMSE %.4g   FLIP %s", comparison.rmse, comparison.relmse,
+                std::isnan(comparison.flip) ? "–" : std::to_string(comparison.flip).substr(0, 6).c_str());
+}
+
+void ImagePanel::draw_image(Workspace& workspace) {
+    const Results& results = workspace.results;
+    const ImageState& choices = workspace.state.image;
+    const std::optional<Image>& shown = choices.shows == "reference" ? results.reference
+                                        : choices.shows == "error"   ? results.error
+                                                                     : results.image;
+    if (!shown) {
+        ui::say_empty(choices.shows == "image"
+                          ? (results.scene ? "the image is being rendered" : "rendering needs a scene; open one")
+                          : "there is no reference; name one and press Compare, or Store this picture");
+        return;
+    }
+    const std::string key = std::to_string(results.image_version) + choices.shows + choices.tone +
+                            std::to_string(choices.exposure) + " " + std::to_string(choices.overlay);
+    if (key != m_key) {
+        m_key = key;
+        m_width = shown->width;
+        m_height = shown->height;
+        ImageState plain = choices;
+        if (choices.shows == "error") {
+            plain.exposure = 0;
+            plain.tone = "srgb";
+        }
+        const bool is_laid_over = choices.shows == "image" && results.colors && choices.overlay > 0 &&
+                                  results.colors->rgb.size() == shown->rgb.size();
+        workspace.pixels.set("image", m_width, m_height,
+                             is_laid_over ? overlay_colors(*shown, *results.colors, plain) : map_tones(*shown, plain));
+    }
+    const ImVec2 free = ImGui::GetContentRegionAvail();
+    const float scale = std::min(free.x / static_cast<float>(m_width), free.y / static_cast<float>(m_height));
+    if (scale <= 0)
+        return;
+    ImGui::Image(static_cast<ImTextureID>(workspace.pixels.find("image")),
+                 {scale * static_cast<float>(m_width), scale * static_cast<float>(m_height)});
+    ui::mark(workspace, "Image/Picture");
+}
+
+void ImagePanel::draw(Workspace& workspace) {
+    workspace.wants_render = true;
+    draw_choices(workspace);
+    draw_numbers(workspace);
+    draw_image(workspace);
+}
+
+} // namespace photonloupe::studio

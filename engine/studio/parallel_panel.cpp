@@ -1,0 +1,397 @@
+// SPDX-License-Identifier: Apache-2.0
+// Makes the plot by engine/inspect and draws axes, densities and brushes over it.
+#include "studio/parallel_panel.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include <imgui.h>
+
+#include "core/error.h"
+#include "studio/edit_state.h"
+#include "studio/theme.h"
+#include "studio/widgets.h"
+
+namespace photonloupe::studio {
+namespace {
+
+constexpr ImU32 AXIS_COLOR = 0xffc8c8c8, DENSITY_COLOR = 0x70a0a0a0, BRUSH_COLOR = 0xa040b0ff;
+constexpr float DENSITY_WIDTH = 22;
+
+std::string write_key(const Workspace& workspace, std::uint32_t width, std::uint32_t height) {
+    const ParallelState& parallel = workspace.state.parallel;
+    std::string key = std::to_string(width) + "x" + std::to_string(height) + " " +
+                      std::to_string(workspace.results.photons_version) + " " + parallel.source + " " + parallel.color +
+                      " " + std::to_string(parallel.tension) + std::to_string(workspace.state.view.shows_relaxed) +
+                      " " + std::to_string(workspace.selection_version);
+    if (parallel.source == "loupe")
+        key += " " + std::to_string(workspace.loupe_result_version);
+    for (const AxisState& axis : parallel.axes) {
+        key += "|" + axis.name + " " + std::to_string(axis.low) + " " + std::to_string(axis.high) + " " +
+               std::to_string(axis.is_flipped) + std::to_string(axis.is_closed) + std::to_string(axis.periods);
+        for (const auto& [low, high] : axis.brushes)
+            key += " " + std::to_string(low) + ":" + std::to_string(high);
+    }
+    return key;
+}
+
+inspect::Axis make_axis(const AxisState& state, const std::vector<inspect::Column>& columns, std::size_t index) {
+    inspect::Axis axis = inspect::make_axis(columns, index);
+    if (state.low != state.high) {
+        axis.low = std::min(state.low, state.high);
+        axis.high = std::max(state.low, state.high);
+    }
+    axis.is_flipped = state.is_flipped;
+    axis.is_closed = state.is_closed;
+    axis.periods = std::max(state.periods, 1u);
+    for (const auto& [low, high] : state.brushes)
+        axis.brushes.push_back({low, high});
+    return axis;
+}
+
+inspect::Selection list_all(std::size_t count) {
+    inspect::Selection all(count);
+    std::iota(all.begin(), all.end(), 0u);
+    return all;
+}
+
+glm::vec3 unpack_color(std::uint32_t packed) {
+    return glm::vec3(packed & 255, packed >> 8 & 255, packed >> 16 & 255) / 255.0f;
+}
+
+std::string format(float value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", static_cast<double>(value));
+    return text;
+}
+
+} // namespace
+
+Ids find_brushed(Workspace& workspace) {
+    std::vector<inspect::Column> columns;
+    std::vector<inspect::Axis> axes;
+    for (const AxisState& axis : workspace.state.parallel.axes) {
+        std::string missing;
+        const inspect::Column* column = axis.brushes.empty() ? nullptr : workspace.seek_column(axis.name, missing);
+        if (!column)
+            continue;
+        columns.push_back(*column);
+        axes.push_back(make_axis(axis, columns, columns.size() - 1));
+    }
+    if (axes.empty())
+        return nullptr;
+    const std::string& source = workspace.state.parallel.source;
+    // A brush over the selection itself would only ever shrink it.
+    const Ids within = source == "loupe" ? workspace.find_source(source) : nullptr;
+    return std::make_shared<const std::vector<std::uint32_t>>(
+        inspect::select_brushed(axes, columns, within ? *within : inspect::Selection{}));
+}
+
+void ParallelPanel::find_axes(Workspace& workspace) {
+    if (workspace.state.parallel.axes.empty() && workspace.shown())
+        workspace.state.parallel.axes = choose_axes(workspace);
+    m_plot.names.clear();
+    m_plot.places.clear();
+    m_plot.columns.clear();
+    m_plot.axes.clear();
+    const std::vector<AxisState>& axes = workspace.state.parallel.axes;
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        std::string missing;
+        const inspect::Column* column = workspace.seek_column(axes[i].name, missing);
+        if (!column)
+            continue; // a parameter of another script: the axis waits for it
+        m_plot.columns.push_back(*column);
+        m_plot.names.push_back(axes[i].name);
+        m_plot.places.push_back(i);
+        m_plot.axes.push_back(make_axis(axes[i], m_plot.columns, m_plot.columns.size() - 1));
+    }
+}
+
+void ParallelPanel::draw_curves(Workspace& workspace, const inspect::Selection& photons) {
+    const ParallelState& parallel = workspace.state.parallel;
+    const Ids& chosen = workspace.state.selection;
+    inspect::Selection selected, context;
+    for (const std::uint32_t id : photons)
+        (!chosen || std::binary_search(chosen->begin(), chosen->end(), id) ? selected : context).push_back(id);
+    const std::vector<std::uint32_t>& packed = workspace.find_colors(parallel.color);
+    std::vector<glm::vec3> colors;
+    if (!packed.empty())
+        for (const std::uint32_t id : selected)
+            colors.push_back(unpack_color(packed[id]));
+    const inspect::Curves below =
+        inspect::build_curves(m_plot.columns, m_plot.axes, m_plot.layout, context, parallel.tension);
+    const inspect::Curves above =
+        inspect::build_curves(m_plot.columns, m_plot.axes, m_plot.layout, selected, parallel.tension);
+    inspect::CurveStyle style;
+    style.background = {0.085f, 0.09f, 0.095f, 1};
+    style.selected_color = {0.55f, 0.75f, 0.95f};
+    inspect::CurveImage image = inspect::draw_curves(workspace.device, m_plot.layout, below, above, colors, style);
+    m_plot.is_density = image.is_density;
+    m_plot.curve_count = photons.size();
+    m_plot.selected_count = selected.size();
+    m_plot.broken_count = below.broken_count + above.broken_count;
+    m_pixels = std::move(image.pixels);
+    workspace.pixels.set("parallel", image.width, image.height, m_pixels);
+    for (std::size_t i = 0; i < m_plot.axes.size(); ++i) {
+        m_plot.densities.push_back(inspect::estimate_density(m_plot.columns[i], m_plot.axes[i], photons));
+        if (chosen && !selected.empty())
+            m_plot.selected_densities.push_back(inspect::estimate_density(m_plot.columns[i], m_plot.axes[i], selected));
+    }
+}
+
+void ParallelPanel::update(Workspace& workspace, std::uint32_t width, std::uint32_t height) {
+    const std::string key = write_key(workspace, width, height);
+    if (key == m_plot.key)
+        return;
+    m_plot = {};
+    m_plot.key = key;
+    const Photons* photons = workspace.shown();
+    if (!photons) {
+        m_plot.missing = "there are no photons yet; open a scene";
+        return;
+    }
+    const auto start = std::chrono::steady_clock::now();
+    find_axes(workspace);
+    m_plot.key = write_key(workspace, width, height); // axes may just have been chosen
+    const std::string& source = workspace.state.parallel.source;
+    const Ids ids = workspace.find_source(source);
+    if (source == "loupe" && !ids)
+        m_plot.missing = "the loupe sees no photons; move the cursor over some, or plot all of them";
+    else if (source == "selection" && !ids)
+        m_plot.missing = "nothing is selected; brush an axis, or plot all photons";
+    else if (m_plot.axes.empty())
+        m_plot.missing = "there are no axes; add one with +";
+    if (!m_plot.missing.empty())
+        return;
+    try {
+        m_plot.layout = inspect::place_axes(m_plot.axes, width, height);
+        draw_curves(workspace, ids ? *ids : list_all(photons->map.count));
+    } catch (const Error& error) {
+        m_plot.missing = error.what();
+    }
+    workspace.plot_times.push_back(
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+}
+
+void ParallelPanel::draw_axes(Workspace& workspace, float x, float y) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const auto place = [&](glm::vec2 point) { return ImVec2(x + point.x, y + point.y); };
+    const auto fill = [&](const std::vector<glm::vec2>& outline, ImU32 color) {
+        std::vector<ImVec2> points;
+        for (const glm::vec2 point : outline)
+            points.push_back(place(point));
+        if (points.size() >= 3)
+            list.AddConcavePolyFilled(points.data(), static_cast<int>(points.size()), color);
+    };
+    for (std::size_t i = 0; i < m_plot.axes.size(); ++i) {
+        const inspect::Axis& axis = m_plot.axes[i];
+        const inspect::AxisPlace& stand = m_plot.layout.places[i];
+        if (workspace.state.parallel.shows_density && i < m_plot.densities.size())
+            for (const auto& outline : inspect::outline_density(axis, stand, m_plot.densities[i], DENSITY_WIDTH))
+                fill(outline, DENSITY_COLOR);
+        if (stand.rx > 0)
+            list.AddEllipse(place(stand.center), {stand.rx, stand.ry}, AXIS_COLOR, 0, 0, 1.5f);
+        else
+            list.AddLine(place(stand.center - glm::vec2(0, stand.ry)), place(stand.center + glm::vec2(0, stand.ry)),
+                         AXIS_COLOR, 1.5f);
+        for (const inspect::Interval& brush : axis.brushes)
+            fill(inspect::outline_brush(axis, stand, brush, 5), BRUSH_COLOR);
+        const std::string& label = m_plot.columns[i].label;
+        const ImVec2 size = ImGui::CalcTextSize(label.c_str());
+        const ImVec2 at = place(stand.center);
+        list.AddText({at.x - 0.5f * size.x, y + 3}, AXIS_COLOR, label.c_str());
+        const std::string low = format(axis.low), high = format(axis.high);
+        const std::string below = stand.rx > 0 ? low + " = " + high : axis.is_flipped ? high : low;
+        list.AddText({at.x - 0.5f * ImGui::CalcTextSize(below.c_str()).x, at.y + stand.ry + 3}, DIM_COLOR,
+                     below.c_str());
+        if (stand.rx == 0) {
+            const std::string& above = axis.is_flipped ? low : high;
+            list.AddText({at.x + 5, at.y - stand.ry - 2}, DIM_COLOR, above.c_str());
+        }
+        workspace.widgets["Parallel coordinates/" + m_plot.names[i]] = {
+            at.x - std::max(stand.rx, 8.0f), at.y - stand.ry, 2 * std::max(stand.rx, 8.0f), 2 * stand.ry};
+    }
+}
+
+void ParallelPanel::brush(Workspace& workspace, float from, float to, bool is_new) {
+    const std::size_t at = m_plot.places[m_axis];
+    const bool wraps = m_plot.axes[m_axis].is_closed;
+    workspace.change("brush", [&](StudioState& state) {
+        auto& brushes = state.parallel.axes[at].brushes;
+        if (is_new || brushes.empty())
+            brushes.push_back({});
+        brushes.back() = wraps ? std::array{from, to} : std::array{std::min(from, to), std::max(from, to)};
+        workspace.select(find_brushed(workspace));
+    });
+}
+
+void ParallelPanel::take_mouse(Workspace& workspace, float x, float y) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const glm::vec2 pixel(io.MousePos.x - x, io.MousePos.y - y);
+    if (!m_plot.missing.empty() || m_plot.axes.empty())
+        return;
+    constexpr float REACH = 14;
+    if (ImGui::IsItemActivated()) {
+        const std::optional<std::size_t> axis = inspect::find_axis(m_plot.layout, pixel, REACH * workspace.scale);
+        m_grip = Grip::none;
+        if (axis) {
+            m_axis = *axis;
+            m_begin = inspect::find_value(m_plot.axes[m_axis], m_plot.layout.places[m_axis], pixel);
+            m_grip = ImGui::IsMouseDown(1) ? Grip::none
+                     : io.KeyAlt           ? Grip::move
+                     : io.KeyShift         ? Grip::zoom
+                                           : Grip::brush;
+            if (m_grip == Grip::brush)
+                brush(workspace, m_begin, m_begin, io.KeyCtrl);
+            if (m_grip == Grip::brush && !io.KeyCtrl)
+                workspace.change("brush", [&](StudioState& state) {
+                    auto& brushes = state.parallel.axes[m_plot.places[m_axis]].brushes;
+                    brushes.erase(brushes.begin(), brushes.end() - 1);
+                });
+        }
+    }
+    if (ImGui::IsItemActive() && m_grip == Grip::brush && ImGui::IsMouseDragging(0, 2))
+        brush(workspace, m_begin,
+              inspect::find_value(m_plot.axes[m_axis], m_plot.layout.places[m_axis], pixel, m_begin), false);
+    if (!ImGui::IsItemDeactivated())
+        return;
+    const std::size_t at = m_axis < m_plot.places.size() ? m_plot.places[m_axis] : 0;
+    if (m_grip == Grip::move)
+        workspace.change("move axis", [&](StudioState& state) {
+            std::size_t to = 0;
+            for (std::size_t i = 0; i < m_plot.layout.places.size(); ++i)
+                if (i != m_axis && m_plot.layout.places[i].center.x < pixel.x)
+                    ++to;
+            const AxisState moved = state.parallel.axes[at];
+            state.parallel.axes.erase(state.parallel.axes.begin() + static_cast<std::ptrdiff_t>(at));
+            state.parallel.axes.insert(state.parallel.axes.begin() +
+                                           static_cast<std::ptrdiff_t>(std::min(to, state.parallel.axes.size())),
+                                       moved);
+        });
+    if (m_grip == Grip::zoom) {
+        const float end = inspect::find_value(m_plot.axes[m_axis], m_plot.layout.places[m_axis], pixel, m_begin);
+        workspace.change("zoom axis", [&](StudioState& state) {
+            AxisState& axis = state.parallel.axes[at];
+            axis.low = std::min(m_begin, end);
+            axis.high = std::max(m_begin, end);
+        });
+    }
+    // A click takes the axis' brushes away.
+    if (m_grip == Grip::brush && !ImGui::IsMouseDragPastThreshold(0, 2))
+        workspace.change("brush", [&](StudioState& state) {
+            state.parallel.axes[at].brushes.clear();
+            workspace.select(find_brushed(workspace));
+        });
+    m_grip = Grip::none;
+}
+
+void ParallelPanel::draw_axis_menu(Workspace& workspace) {
+    if (!ImGui::BeginPopup("axis"))
+        return;
+    const std::size_t at = m_axis < m_plot.places.size() ? m_plot.places[m_axis] : 0;
+    const auto edit = [&](const char* name, const auto& make) {
+        workspace.change(name, [&](StudioState& state) {
+            make(state.parallel.axes[at]);
+            workspace.select(find_brushed(workspace));
+        });
+    };
+    const AxisState& axis = workspace.state.parallel.axes[at];
+    ImGui::TextDisabled("%s", axis.name.c_str());
+    if (ui::toggle(workspace, "Parallel coordinates/Closed", "closed (ellipse)", axis.is_closed))
+        edit("close axis", [](AxisState& state) { state.is_closed = !state.is_closed; });
+    ImGui::BeginDisabled(!axis.is_closed);
+    std::uint32_t periods = axis.periods;
+    ImGui::SetNextItemWidth(120 * workspace.scale);
+    if (ui::slide(workspace, "Parallel coordinates/Periods", "periods", periods, 1, 16))
+        edit("periods", [&](AxisState& state) { state.periods = periods; });
+    ImGui::EndDisabled();
+    if (ui::toggle(workspace, "Parallel coordinates/Flipped", "flipped", axis.is_flipped))
+        edit("flip axis", [](AxisState& state) { state.is_flipped = !state.is_flipped; });
+    if (ui::button(workspace, "Parallel coordinates/Whole", "whole range"))
+        edit("whole range", [](AxisState& state) { state.low = state.high = 0; });
+    if (ui::button(workspace, "Parallel coordinates/Remove", "remove")) {
+        workspace.change("remove axis", [&](StudioState& state) {
+            state.parallel.axes.erase(state.parallel.axes.begin() + static_cast<std::ptrdiff_t>(at));
+        });
+        ImGui::CloseCurrentPopup();
+    }
+    ImGui::EndPopup();
+}
+
+void ParallelPanel::draw_toolbar(Workspace& workspace) {
+    const ParallelState& parallel = workspace.state.parallel;
+    const auto edit = [&](const char* name, const auto& make) {
+        workspace.change(name, [&](StudioState& state) { make(state.parallel); });
+    };
+    ImGui::SetNextItemWidth(95 * workspace.scale);
+    const int source = ui::choose(workspace, "Parallel coordinates/Source", "##source", parallel.source,
+                                  {"loupe", "all", "selection"}, "Which photons are plotted");
+    if (source >= 0)
+        edit("plotted photons", [&](ParallelState& state) {
+            state.source = source == 0 ? "loupe" : source == 1 ? "all" : "selection";
+        });
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(120 * workspace.scale);
+    std::string color = parallel.color;
+    if (ui::choose_column(workspace, "Parallel coordinates/Color", "##color", color, "encoding"))
+        edit("curve colors", [&](ParallelState& state) { state.color = color; });
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(80 * workspace.scale);
+    float tension = parallel.tension;
+    if (ui::slide(workspace, "Parallel coordinates/Tension", "##tension", tension, 0, 1, "tension %.2f"))
+        edit("tension", [&](ParallelState& state) { state.tension = tension; });
+    ImGui::SameLine();
+    if (ui::toggle(workspace, "Parallel coordinates/Density", "density", parallel.shows_density))
+        edit("density", [](ParallelState& state) { state.shows_density = !state.shows_density; });
+    ImGui::SameLine();
+    std::string added = "+ axis";
+    ImGui::SetNextItemWidth(90 * workspace.scale);
+    if (ui::choose_column(workspace, "Parallel coordinates/Add", "##add", added))
+        edit("add axis", [&](ParallelState& state) {
+            AxisState axis;
+            axis.name = added;
+            state.axes.push_back(axis);
+        });
+    ImGui::SameLine();
+    if (ui::button(workspace, "Parallel coordinates/Reset", "Reset", "The first axes again"))
+        reset_axes(workspace);
+    ImGui::SameLine();
+    std::string told = std::to_string(m_plot.curve_count) + " photons";
+    if (workspace.state.selection)
+        told += ", " + std::to_string(m_plot.selected_count) + " selected";
+    if (m_plot.broken_count > 0)
+        told += ", " + std::to_string(m_plot.broken_count) + " lack a value";
+    ImGui::TextDisabled("%s", told.c_str());
+}
+
+void ParallelPanel::draw(Workspace& workspace) {
+    draw_toolbar(workspace);
+    const ImVec2 low = ImGui::GetCursorScreenPos(), free = ImGui::GetContentRegionAvail();
+    const auto width = static_cast<std::uint32_t>(std::max(free.x, 32.0f));
+    const auto height = static_cast<std::uint32_t>(std::max(free.y, 32.0f));
+    update(workspace, width, height);
+    if (!m_plot.missing.empty()) {
+        ui::say_empty(m_plot.missing);
+        return;
+    }
+    ImGui::InvisibleButton("##plot", {static_cast<float>(width), static_cast<float>(height)},
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
+    ui::mark(workspace, "Parallel coordinates/Plot");
+    if (ImGui::IsItemClicked(1)) {
+        const ImVec2 mouse = ImGui::GetIO().MousePos;
+        if (const auto axis = inspect::find_axis(m_plot.layout, {mouse.x - low.x, mouse.y - low.y}, 30)) {
+            m_axis = *axis;
+            ImGui::OpenPopup("axis");
+        }
+    }
+    take_mouse(workspace, low.x, low.y);
+    if (const std::uint64_t texture = workspace.pixels.find("parallel"))
+        ImGui::GetWindowDrawList()->AddImage(static_cast<ImTextureID>(texture), low,
+                                             {low.x + static_cast<float>(width), low.y + static_cast<float>(height)});
+    draw_axes(workspace, low.x, low.y);
+    draw_axis_menu(workspace);
+}
+
+} // namespace photonloupe::studio

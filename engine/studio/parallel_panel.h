@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Parallel coordinates ([SJL15] figures 6 b, 7 h): the loupe's photons, all, or the selection, along axes that are
+// dragged, closed, zoomed and brushed.
+#pragma once
+
+#include <optional>
+
+#include "inspect/parallel_density.h"
+#include "inspect/parallel_plot.h"
+#include "studio/workspace.h"
+
+namespace photonloupe::studio {
+
+class ParallelPanel {
+public:
+    void draw(Workspace& workspace);
+
+private:
+    // What is drawn now, and of which choices.
+    struct Plot {
+        std::string key;
+        std::vector<std::string> names;  // of the axes shown
+        std::vector<std::size_t> places; // of them among the state's axes
+        std::vector<inspect::Column> columns;
+        std::vector<inspect::Axis> axes;
+        inspect::AxisLayout layout;
+        std::vector<inspect::AxisDensity> densities, selected_densities;
+        std::size_t curve_count = 0, selected_count = 0, broken_count = 0;
+        bool is_density = false;
+        std::string missing;
+    };
+    enum class Grip { none, brush, move, zoom };
+
+    void draw_toolbar(Workspace& workspace);
+    void update(Workspace& workspace, std::uint32_t width, std::uint32_t height);
+    void find_axes(Workspace& workspace);
+    void draw_curves(Workspace& workspace, const inspect::Selection& photons);
+    void draw_axes(Workspace& workspace, float x, float y);
+    void draw_axis_menu(Workspace& workspace);
+    void take_mouse(Workspace& workspace, float x, float y);
+    void brush(Workspace& workspace, float from, float to, bool is_new);
+
+    Plot m_plot;
+    gpu::Buffer m_pixels;
+    Grip m_grip = Grip::none;
+    std::size_t m_axis = 0; // the one held, or of the menu
+    float m_begin = 0;      // value where the drag began
+};
+
+// The photons that all brushed axes choose, among those the plot shows; null without brushes.
+Ids find_brushed(Workspace& workspace);
+
+} // namespace photonloupe::studio

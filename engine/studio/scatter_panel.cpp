@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+// Plots by engine/inspect; draws frame, labels and lasso over it.
+#include "studio/scatter_panel.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include <imgui.h>
+
+#include "core/error.h"
+#include "inspect/cell_image.h"
+#include "studio/parallel_panel.h"
+#include "studio/theme.h"
+#include "studio/widgets.h"
+
+namespace photonloupe::studio {
+namespace {
+
+constexpr std::size_t SMALLEST_LASSO = 3;
+
+// Linear colors, as the plot takes them.
+std::vector<glm::vec3> list_colors(Workspace& workspace) {
+    std::vector<glm::vec3> colors;
+    for (const std::uint32_t packed : workspace.find_colors("encoding"))
+        colors.push_back(glm::vec3(std::pow((packed & 255) / 255.0f, 2.2f),
+                                   std::pow((packed >> 8 & 255) / 255.0f, 2.2f),
+                                   std::pow((packed >> 16 & 255) / 255.0f, 2.2f)));
+    return colors;
+}
+
+std::string format_range(const inspect::Column& column, const inspect::Range& range) {
+    char text[160];
+    std::snprintf(text, sizeof text, "%s: %.3g … %.3g", column.label.c_str(), range.first, range.second);
+    return text;
+}
+
+} // namespace
+
+bool is_within(const std::vector<glm::vec2>& polygon, glm::vec2 point) {
+    bool inside = false;
+    for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+        const glm::vec2 a = polygon[i], b = polygon[j];
+        if ((a.y > point.y) != (b.y > point.y) && point.x < (b.x - a.x) * (point.y - a.y) / (b.y - a.y) + a.x)
+            inside = !inside;
+    }
+    return inside;
+}
+
+void ScatterPanel::update(Workspace& workspace, Plot& plot, const std::string& texture, const std::string& x,
+                          const std::string& y, bool is_polar, std::uint32_t width, std::uint32_t height) {
+    const ScatterState& scatter = workspace.state.scatter;
+    const std::string source = scatter.shows_pair ? "loupe" : scatter.source;
+    std::string key = x + "|" + y + "|" + source + std::to_string(is_polar) + " " + std::to_string(width) + "x" +
+                      std::to_string(height) + " " + std::to_string(workspace.results.photons_version) + " " +
+                      std::to_string(workspace.selection_version) + std::to_string(workspace.state.view.shows_relaxed);
+    if (source == "loupe")
+        key += " " + std::to_string(workspace.loupe_result_version);
+    if (key == plot.key)
+        return;
+    plot = {};
+    plot.key = key;
+    const inspect::Column* across = workspace.seek_column(x, plot.missing);
+    const inspect::Column* up = across ? workspace.seek_column(y, plot.missing) : nullptr;
+    if (!across || !up)
+        return;
+    plot.x = *across;
+    plot.y = *up;
+    Ids shown = workspace.find_source(source);
+    if (source != "all" && !shown) {
+        plot.missing = source == "loupe" ? "the loupe sees no photons; move the cursor over some"
+                                         : "nothing is selected; brush an axis, or draw a lasso over all photons";
+        return;
+    }
+    // The loupe's photons stand out from the rest; brushes and lassos likewise.
+    const Ids chosen = shown ? shown : workspace.state.selection;
+    inspect::ScatterSettings settings;
+    settings.width = width;
+    settings.height = height;
+    settings.is_polar = is_polar;
+    try {
+        const inspect::ScatterPlot drawn =
+            inspect::plot_scatter(plot.x, plot.y, list_colors(workspace), chosen ? &*chosen : nullptr, settings);
+        std::vector<std::uint32_t> pixels(drawn.rgba.size() / 4);
+        for (std::size_t i = 0; i < pixels.size(); ++i)
+            pixels[i] = drawn.rgba[4 * i] | drawn.rgba[4 * i + 1] << 8 | drawn.rgba[4 * i + 2] << 16 |
+                        std::uint32_t{drawn.rgba[4 * i + 3]} << 24;
+        plot.frame = drawn.frame;
+        plot.drawn_count = drawn.drawn_count;
+        workspace.pixels.set(texture, width, height, std::move(pixels));
+    } catch (const Error& error) {
+        plot.missing = error.what();
+    }
+}
+
+void ScatterPanel::show(Workspace& workspace, const Plot& plot, const std::string& texture, float x, float y,
+                        float width, float height) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled({x, y}, {x + width, y + height}, 0xff181615);
+    if (const std::uint64_t id = workspace.pixels.find(texture))
+        list.AddImage(static_cast<ImTextureID>(id), {x, y}, {x + width, y + height});
+    list.AddRect({x, y}, {x + width, y + height}, 0xff504c48);
+    if (!plot.frame)
+        return;
+    const float line = ImGui::GetTextLineHeight();
+    list.AddText({x + 6, y + height - line - 4}, DIM_COLOR, format_range(plot.x, plot.frame->x_range()).c_str());
+    list.AddText({x + 6, y + 4}, DIM_COLOR, format_range(plot.y, plot.frame->y_range()).c_str());
+}
+
+void ScatterPanel::take_lasso(Workspace& workspace, const Plot& plot, float x, float y) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const glm::vec2 pixel(io.MousePos.x - x, io.MousePos.y - y);
+    if (ImGui::IsItemActivated()) {
+        m_lasso.assign(1, pixel);
+        m_is_lassoing = true;
+    }
+    if (ImGui::IsItemActive() && m_is_lassoing && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0))
+        m_lasso.push_back(pixel);
+    if (m_lasso.size() > 1 && m_is_lassoing) {
+        std::vector<ImVec2> points;
+        for (const glm::vec2 point : m_lasso)
+            points.emplace_back(x + point.x, y + point.y);
+        ImGui::GetWindowDrawList()->AddPolyline(points.data(), static_cast<int>(points.size()), ACCENT_COLOR, 1.5f,
+                                                ImDrawFlags_Closed);
+    }
+    if (!ImGui::IsItemDeactivated() || !m_is_lassoing)
+        return;
+    m_is_lassoing = false;
+    if (m_lasso.size() < SMALLEST_LASSO || !plot.frame) {
+        workspace.change("select nothing", [&](StudioState&) { workspace.select(nullptr); });
+        return;
+    }
+    auto ids = std::make_shared<std::vector<std::uint32_t>>();
+    for (std::size_t i = 0; i < plot.x.values.size(); ++i) {
+        const glm::dvec2 at = plot.frame->to_pixel(plot.x.values[i], plot.y.values[i]);
+        if (is_within(m_lasso, glm::vec2(at)))
+            ids->push_back(static_cast<std::uint32_t>(i));
+    }
+    workspace.change("lasso", [&](StudioState& state) {
+        for (AxisState& axis : state.parallel.axes)
+            axis.brushes.clear();
+        workspace.select(ids);
+    });
+}
+
+void ScatterPanel::draw_toolbar(Workspace& workspace) {
+    const ScatterState& scatter = workspace.state.scatter;
+    const auto edit = [&](const char* name, const auto& make) {
+        workspace.change(name, [&](StudioState& state) { make(state.scatter); });
+    };
+    const float width = 120 * workspace.scale;
+    std::string x = scatter.x, y = scatter.y;
+    ImGui::SetNextItemWidth(width);
+    if (ui::choose_column(workspace, "Parameter space/X", scatter.is_polar ? "angle" : "x", x))
+        edit("scatter x", [&](ScatterState& state) { state.x = x; });
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(width);
+    if (ui::choose_column(workspace, "Parameter space/Y", scatter.is_polar ? "radius" : "y", y))
+        edit("scatter y", [&](ScatterState& state) { state.y = y; });
+    ImGui::SameLine();
+    if (ui::toggle(workspace, "Parameter space/Polar", "polar", scatter.is_polar))
+        edit("polar", [](ScatterState& state) { state.is_polar = !state.is_polar; });
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(90 * workspace.scale);
+    const int source = ui::choose(workspace, "Parameter space/Source", "##source", scatter.source,
+                                  {"loupe", "all", "selection"}, "Which photons stand out");
+    if (source >= 0)
+        edit("scattered photons", [&](ScatterState& state) {
+            state.source = source == 0 ? "loupe" : source == 1 ? "all" : "selection";
+        });
+    ImGui::SameLine();
+    if (ui::toggle(workspace, "Parameter space/Pair", "world beside", scatter.shows_pair,
+                   "The loupe's photons in world space and in parameter space"))
+        edit("world beside", [](ScatterState& state) { state.shows_pair = !state.shows_pair; });
+}
+
+void ScatterPanel::draw(Workspace& workspace) {
+    draw_toolbar(workspace);
+    const ImVec2 low = ImGui::GetCursorScreenPos(), free = ImGui::GetContentRegionAvail();
+    const ScatterState& scatter = workspace.state.scatter;
+    const float gap = 6;
+    const float width = std::floor(scatter.shows_pair ? 0.5f * (free.x - gap) : free.x);
+    const float height = std::floor(free.y);
+    if (width < 16 || height < 16)
+        return;
+    const auto columns = static_cast<std::uint32_t>(width), rows = static_cast<std::uint32_t>(height);
+    float left = low.x;
+    if (scatter.shows_pair) {
+        update(workspace, m_world, "scatter world", "x", "z", false, columns, rows);
+        show(workspace, m_world, "scatter world", left, low.y, width, height);
+        left += width + gap;
+    }
+    update(workspace, m_plot, "scatter", scatter.x, scatter.y, scatter.is_polar, columns, rows);
+    if (!m_plot.missing.empty()) {
+        ui::say_empty(m_plot.missing);
+        return;
+    }
+    ImGui::SetCursorScreenPos({left, low.y});
+    ImGui::InvisibleButton("##scatter", {width, height});
+    ui::mark(workspace, "Parameter space/Plot");
+    show(workspace, m_plot, "scatter", left, low.y, width, height);
+    take_lasso(workspace, m_plot, left, low.y);
+}
+
+} // namespace photonloupe::studio

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// The line at the bottom: device, photons, columns and their memory, milliseconds, progress with cancel; and the list
+// of keys.
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "studio/commands.h"
+#include "studio/panels.h"
+#include "studio/theme.h"
+#include "studio/widgets.h"
+
+namespace photonloupe::studio {
+namespace {
+
+std::string list_held(const PhotonMap& map) {
+    std::string text;
+    const auto add = [&](bool is_held, const char* name) {
+        if (is_held)
+            text += (text.empty() ? "" : ", ") + std::string(name);
+    };
+    add(true, "photons");
+    add(map.paths.has_value(), "paths");
+    add(map.parameters.has_value(), "parameters");
+    add(map.colors.has_value(), "colors");
+    return text;
+}
+
+void draw_activity(Workspace& workspace) {
+    const Activity& activity = workspace.activity;
+    if (activity.is_running) {
+        ImGui::SameLine();
+        ImGui::SetNextItemWidth(160 * workspace.scale);
+        ImGui::ProgressBar(static_cast<float>(activity.fraction), {160 * workspace.scale, 0}, activity.stage.c_str());
+        ImGui::SameLine();
+        ImGui::BeginDisabled(activity.is_stopping);
+        if (ui::button(workspace, "Status/Cancel", activity.is_stopping ? "stopping" : "Cancel"))
+            workspace.requests.push_back("cancel");
+        ImGui::EndDisabled();
+    }
+    if (workspace.message.empty())
+        return;
+    ImGui::SameLine();
+    ImGui::PushStyleColor(ImGuiCol_Text, workspace.message_is_error ? WARNING_COLOR : DIM_COLOR);
+    const std::string line = workspace.message.substr(0, workspace.message.find('\n'));
+    ImGui::TextUnformatted(line.c_str());
+    ImGui::PopStyleColor();
+    ui::mark(workspace, "Status/Message");
+    ui::explain(workspace.message.c_str());
+}
+
+} // namespace
+
+void draw_status_line(Workspace& workspace) {
+    const ImGuiViewport* viewport = ImGui::GetMainViewport();
+    const float height = ImGui::GetFrameHeight() + 4 * workspace.scale;
+    ImGui::SetNextWindowPos({viewport->Pos.x, viewport->Pos.y + viewport->Size.y - height});
+    ImGui::SetNextWindowSize({viewport->Size.x, height});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8 * workspace.scale, 2 * workspace.scale});
+    ImGui::Begin("Status", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoDocking |
+                     ImGuiWindowFlags_NoSavedSettings);
+    ImGui::PopStyleVar();
+    if (ui::button(workspace, "Status/Keys", "?", "List every key"))
+        find_command("help.keys").run(workspace);
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(150 * workspace.scale);
+    if (ImGui::InputTextWithHint("##open", "open a scene, map, session", &workspace.open_path,
+                                 ImGuiInputTextFlags_EnterReturnsTrue))
+        workspace.requests.push_back("open " + workspace.open_path);
+    ui::mark(workspace, "Status/Open");
+    ImGui::SameLine();
+    std::string told = workspace.device.info().name.substr(0, workspace.device.info().name.find(" ("));
+    if (const Photons* photons = workspace.shown())
+        told += "  |  " + std::to_string(photons->map.count) + " photons (" + list_held(photons->map) + ")";
+    if (!workspace.is_offscreen)
+        told += "  |  " + std::to_string(workspace.device.allocated_bytes() >> 20) + " MiB  |  frame " +
+                std::to_string(static_cast<int>(workspace.frame_milliseconds)) + " ms";
+    else
+        told += "  |  frame – ms";
+    if (!workspace.is_offscreen)
+        for (const auto& [stage, milliseconds] : workspace.stage_milliseconds)
+            told += "  " + stage + " " + std::to_string(static_cast<int>(milliseconds)) + " ms";
+    ImGui::TextDisabled("%s", told.c_str());
+    draw_activity(workspace);
+    ImGui::End();
+}
+
+void draw_key_list(Workspace& workspace) {
+    if (!workspace.shows_keys)
+        return;
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({0.5f * size.x, 0.5f * size.y}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSize({0, std::min(0.9f * size.y, 720 * workspace.scale)});
+    ImGui::SetNextWindowFocus();
+    if (ImGui::Begin("Keys", &workspace.shows_keys, ImGuiWindowFlags_NoDocking | ImGuiWindowFlags_NoCollapse)) {
+        if (ImGui::BeginTable("##keys", 2, ImGuiTableFlags_RowBg)) {
+            const auto row = [](const std::string& keys, const std::string& about) {
+                ImGui::TableNextRow();
+                ImGui::TableNextColumn();
+                ImGui::TextUnformatted(keys.c_str());
+                ImGui::TableNextColumn();
+                ImGui::TextUnformatted(about.c_str());
+            };
+            for (const Command& command : list_commands())
+                if (!command.keys.empty())
+                    row(std::string(command.keys), std::string(command.about));
+            row("wheel", "View: photons in the loupe");
+            row("ctrl+wheel", "View: nearer or farther");
+            row("drag", "View: orbit; with the right or middle button: pan");
+            row("click", "View: pin the photon");
+            row("drag on an axis", "Parallel coordinates: brush; with Ctrl one more, with Shift zoom, with Alt move");
+            row("right click on an axis", "Parallel coordinates: closed, periods, flipped, whole range, remove");
+            row("drag", "Parameter space: lasso");
+            ImGui::EndTable();
+        }
+    }
+    ImGui::End();
+    ui::mark(workspace, "Keys");
+}
+
+} // namespace photonloupe::studio

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lays out the view and turns the mouse into camera, loupe and pins.
+#include "studio/view_panel.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <imgui.h>
+
+#include "photons/map_columns.h"
+#include "studio/camera.h"
+#include "studio/edit_state.h"
+#include "studio/loupe_query.h"
+#include "studio/python_script.h"
+#include "studio/theme.h"
+#include "studio/widgets.h"
+
+namespace photonloupe::studio {
+namespace {
+
+constexpr const char* MODE_NAMES[] = {"1 points",       "2 Voronoi cells",      "3 kd-tree", "4 false color points",
+                                      "5 final render", "6 false color render", "7 map"};
+constexpr float ORBIT_SPEED = 0.006f;  // radians a pixel
+constexpr float SPLIT_REACH = 5.0f;    // pixels from the line that take hold of it
+constexpr float DRAG_THRESHOLD = 4.0f; // pixels before a click is a drag
+
+// The picture's place in the free room: all of it, or, of renders, what has their aspect.
+ViewFrame place_frame(const Workspace& workspace, ImVec2 low, ImVec2 room) {
+    ViewFrame frame{low.x, low.y, std::floor(room.x), std::floor(room.y), {}, {}};
+    if (shows_render(workspace.state.view.mode)) {
+        const float scale = std::min(room.x / RENDER_WIDTH, room.y / RENDER_HEIGHT);
+        frame.width = RENDER_WIDTH * scale;
+        frame.height = RENDER_HEIGHT * scale;
+        frame.x += 0.5f * (room.x - frame.width);
+        frame.y += 0.5f * (room.y - frame.height);
+    }
+    if (workspace.results.scene)
+        frame.origin = workspace.results.scene->origin;
+    else if (workspace.results.photons)
+        frame.origin = workspace.results.photons->map.origin;
+    frame.camera = frame_view(find_pose(workspace.state.view.camera), frame.origin,
+                              static_cast<std::uint32_t>(frame.width), static_cast<std::uint32_t>(frame.height));
+    return frame;
+}
+
+// Without surfaces: the photon that is nearest to the cursor on the screen.
+std::optional<std::uint32_t> find_photon_at(const Photons& photons, const ViewFrame& frame, float x, float y) {
+    constexpr float REACH = 40.0f;
+    const std::vector<float> positions = read_positions(photons.map);
+    std::optional<std::uint32_t> nearest;
+    float least = REACH * REACH;
+    for (std::size_t i = 0; i < photons.map.count; ++i) {
+        const glm::vec3 pixel = find_pixel(frame, {positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]});
+        const float distance = (pixel.x - x) * (pixel.x - x) + (pixel.y - y) * (pixel.y - y);
+        if (pixel.z > 0 && distance < least) {
+            least = distance;
+            nearest = static_cast<std::uint32_t>(i);
+        }
+    }
+    return nearest;
+}
+
+} // namespace
+
+glm::vec3 find_pixel(const ViewFrame& frame, const std::array<double, 3>& place) {
+    glm::vec3 local;
+    for (int i = 0; i < 3; ++i)
+        local[i] = static_cast<float>(place[static_cast<std::size_t>(i)] - frame.origin[static_cast<std::size_t>(i)]);
+    const glm::vec3 pixel =
+        project(frame.camera, local, static_cast<std::uint32_t>(frame.width), static_cast<std::uint32_t>(frame.height));
+    return {pixel.x + frame.x, pixel.y + frame.y, pixel.z};
+}
+
+void ViewPanel::draw_toolbar(Workspace& workspace) {
+    ViewState& view = workspace.state.view;
+    const auto mode = static_cast<int>(view.mode);
+    ImGui::SetNextItemWidth(170 * workspace.scale);
+    const int chosen = ui::choose(
+        workspace, "View/Mode", "##mode", MODE_NAMES[mode - 1],
+        {MODE_NAMES[0], MODE_NAMES[1], MODE_NAMES[2], MODE_NAMES[3], MODE_NAMES[4], MODE_NAMES[5], MODE_NAMES[6]});
+    if (chosen >= 0)
+        set_mode(workspace, static_cast<ViewMode>(chosen + 1));
+    if (view.mode == ViewMode::map) {
+        ImGui::SameLine();
+        ImGui::SetNextItemWidth(140 * workspace.scale);
+        std::string column = view.map_column;
+        if (ui::choose_column(workspace, "View/Column", "##column", column))
+            workspace.change("map", [&](StudioState& state) { state.view.map_column = column; });
+    }
+    if (view.mode == ViewMode::kd_tree) {
+        ImGui::SameLine();
+        ImGui::SetNextItemWidth(110 * workspace.scale);
+        int depth = view.tree_depth;
+        if (ImGui::SliderInt("##depth", &depth, -1, 24, depth < 0 ? "leaves" : "depth %d"))
+            workspace.change("tree depth", [&](StudioState& state) { state.view.tree_depth = depth; });
+        ui::mark(workspace, "View/Depth");
+    }
+    if (!shows_render(view.mode) && view.mode != ViewMode::voronoi && view.mode != ViewMode::kd_tree) {
+        ImGui::SameLine();
+        ImGui::SetNextItemWidth(90 * workspace.scale);
+        float size = view.point_size;
+        if (ui::slide(workspace, "View/Size", "##size", size, 1.0f, 16.0f, "%.1f px"))
+            workspace.change("point size", [&](StudioState& state) { state.view.point_size = size; });
+        ImGui::SameLine();
+        ImGui::SetNextItemWidth(90 * workspace.scale);
+        float brightness = view.brightness;
+        if (ui::slide(workspace, "View/Brightness", "##brightness", brightness, -6.0f, 6.0f, "%.1f stops"))
+            workspace.change("brightness", [&](StudioState& state) { state.view.brightness = brightness; });
+    }
+    ImGui::SameLine();
+    if (ui::button(workspace, "View/Frame", "Frame", "Frame the selection, or all photons (F)"))
+        frame_selection(workspace);
+    ImGui::SameLine();
+    if (ui::button(workspace, "View/Straight", "Straight", "Look straight at the receiver (R)"))
+        look_straight(workspace);
+    ImGui::SameLine();
+    ImGui::BeginDisabled(!workspace.has_relaxed());
+    if (ui::toggle(workspace, "View/After", "after", view.shows_relaxed, "Relaxed photons (Tab)"))
+        toggle_relaxed(workspace);
+    ImGui::SameLine();
+    if (ui::toggle(workspace, "View/Split", "split", view.is_split, "Before and after side by side (S)"))
+        toggle_split(workspace);
+    ImGui::EndDisabled();
+}
+
+void ViewPanel::draw_images(Workspace& workspace, const ViewFrame& frame) {
+    const ViewState& view = workspace.state.view;
+    const bool is_split = view.is_split && workspace.has_relaxed() && !shows_render(view.mode);
+    const auto width = static_cast<std::uint32_t>(frame.width), height = static_cast<std::uint32_t>(frame.height);
+    const float line = frame.x + frame.width * view.split_at;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    std::string missing;
+    const auto show = [&](ViewPicture& picture, bool relaxed, float left, float right) {
+        picture.update(workspace, relaxed, width, height, missing);
+        const std::uint64_t texture = picture.find_texture(workspace);
+        if (!texture || !missing.empty())
+            return;
+        const float u0 = (left - frame.x) / frame.width, u1 = (right - frame.x) / frame.width;
+        list.AddImage(static_cast<ImTextureID>(texture), {left, frame.y}, {right, frame.y + frame.height}, {u0, 0},
+                      {u1, 1});
+    };
+    if (is_split) {
+        show(m_before, false, frame.x, line);
+        show(m_after, true, line, frame.x + frame.width);
+        list.AddLine({line, frame.y}, {line, frame.y + frame.height}, ACCENT_COLOR, 2);
+        list.AddText({line - 50 * workspace.scale, frame.y + 4}, DIM_COLOR, "before");
+        list.AddText({line + 8, frame.y + 4}, DIM_COLOR, "after");
+    } else {
+        show(view.shows_relaxed ? m_after : m_before, view.shows_relaxed, frame.x, frame.x + frame.width);
+    }
+    if (!missing.empty()) {
+        ImGui::SetCursorScreenPos({frame.x + 12, frame.y + 12});
+        ui::say_empty(missing);
+    }
+}
+
+void ViewPanel::move_under_cursor(Workspace& workspace, const ViewFrame& frame, float x, float y) {
+    Photons* photons = workspace.shown();
+    if (!photons)
+        return;
+    const ViewPicture& picture = workspace.state.view.shows_relaxed ? m_after : m_before;
+    if (picture.has_surfaces()) {
+        const auto seen = picture.seek_surface((x - frame.x) / frame.width, (y - frame.y) / frame.height);
+        if (seen)
+            move_loupe(workspace, seen->position, seen->normal);
+        return;
+    }
+    const std::optional<std::uint32_t> photon = find_photon_at(*photons, frame, x, y);
+    if (!photon)
+        return;
+    const std::vector<float> positions = read_positions(photons->map);
+    move_loupe(workspace, {positions[3 * *photon], positions[3 * *photon + 1], positions[3 * *photon + 2]}, {});
+}
+
+void ViewPanel::take_mouse(Workspace& workspace, const ViewFrame& frame) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool is_over = ImGui::IsItemHovered(), is_active = ImGui::IsItemActive();
+    const float line = frame.x + frame.width * workspace.state.view.split_at;
+    const bool is_split = workspace.state.view.is_split && workspace.has_relaxed();
+    if (ImGui::IsItemActivated()) {
+        m_is_dragging = false;
+        m_drags_split = is_split && std::abs(io.MousePos.x - line) <= SPLIT_REACH * workspace.scale;
+    }
+    if (is_over && io.MouseWheel != 0 && io.KeyCtrl)
+        workspace.change("zoom", [&](StudioState& state) { zoom(state.view.camera, io.MouseWheel); });
+    else if (is_over && io.MouseWheel != 0)
+        io.MouseWheel > 0 ? grow_loupe(workspace) : shrink_loupe(workspace);
+    const int button = ImGui::IsMouseDown(1) ? 1 : ImGui::IsMouseDown(2) ? 2 : 0;
+    if (is_active && ImGui::IsMouseDragging(button, DRAG_THRESHOLD)) {
+        m_is_dragging = true;
+        const ImVec2 moved = io.MouseDelta;
+        if (m_drags_split)
+            workspace.change("split", [&](StudioState& state) {
+                state.view.split_at = std::clamp((io.MousePos.x - frame.x) / frame.width, 0.0f, 1.0f);
+            });
+        else if ((moved.x != 0 || moved.y != 0) && button == 0)
+            workspace.change("orbit", [&](StudioState& state) {
+                orbit(state.view.camera, moved.x * ORBIT_SPEED, moved.y * ORBIT_SPEED);
+            });
+        else if (moved.x != 0 || moved.y != 0)
+            workspace.change("pan", [&](StudioState& state) {
+                pan(state.view.camera, moved.x / frame.height, -moved.y / frame.height);
+            });
+        return;
+    }
+    const bool has_moved = io.MouseDelta.x != 0 || io.MouseDelta.y != 0;
+    if (is_over && has_moved && !is_active)
+        move_under_cursor(workspace, frame, io.MousePos.x, io.MousePos.y);
+    if (ImGui::IsItemDeactivated() && !m_is_dragging && ImGui::IsMouseReleased(0)) {
+        move_under_cursor(workspace, frame, io.MousePos.x, io.MousePos.y);
+        update_loupe(workspace);
+        pin_photon(workspace);
+    }
+}
+
+void ViewPanel::draw_picture(Workspace& workspace) {
+    const ImVec2 low = ImGui::GetCursorScreenPos();
+    const ImVec2 free = ImGui::GetContentRegionAvail();
+    const ImVec2 room(std::max(free.x, 16.0f), std::max(free.y, 16.0f));
+    ImGui::InvisibleButton("##picture", room,
+                           ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                               ImGuiButtonFlags_MouseButtonMiddle);
+    ui::mark(workspace, "View/Picture");
+    ImGui::SetItemKeyOwner(ImGuiKey_MouseWheelY);
+    const ViewFrame frame = place_frame(workspace, low, room);
+    take_mouse(workspace, frame);
+    ImGui::PushClipRect(low, {low.x + room.x, low.y + room.y}, true);
+    draw_images(workspace, frame);
+    update_loupe(workspace);
+    draw_loupe(workspace, frame);
+    ImGui::PopClipRect();
+}
+
+void ViewPanel::draw(Workspace& workspace) {
+    draw_toolbar(workspace);
+    draw_picture(workspace);
+}
+
+} // namespace photonloupe::studio
