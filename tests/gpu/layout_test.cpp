@@ -10,6 +10,7 @@
 #include "gpu/kernel_source.h"
 #include "gpu/kernel_variants.h"
 #include "gpu/reflect_spirv.h"
+#include "shared/inspect.h"
 #include "shared/photons.h"
 #include "shared/relax.h"
 #include "shared/render.h"
@@ -23,12 +24,12 @@ namespace {
     { #type, measure_host_struct < shared::type>() }
 
 const std::map<std::string, HostStruct> HOST_STRUCTS{
-    STRUCT(Triangle),         STRUCT(TriangleNormals), STRUCT(Material),       STRUCT(Light),
-    STRUCT(BvhNode),          STRUCT(SceneHeader),     STRUCT(TraceSettings),  STRUCT(LightEmission),
-    STRUCT(PathSummary),      STRUCT(BalanceSum),      STRUCT(TreeNode),       STRUCT(TreeBuild),
-    STRUCT(NeighborQuery),    STRUCT(CameraFrame),     STRUCT(EyeSettings),    STRUCT(FilmSettings),
-    STRUCT(PlotSettings),     STRUCT(TreeRefit),       STRUCT(GatherSettings), STRUCT(RepelSettings),
-    STRUCT(DescribeSettings), STRUCT(MoveSettings),
+    STRUCT(Triangle),         STRUCT(TriangleNormals), STRUCT(Material),        STRUCT(Light),
+    STRUCT(BvhNode),          STRUCT(SceneHeader),     STRUCT(TraceSettings),   STRUCT(LightEmission),
+    STRUCT(PathSummary),      STRUCT(BalanceSum),      STRUCT(TreeNode),        STRUCT(TreeBuild),
+    STRUCT(NeighborQuery),    STRUCT(CameraFrame),     STRUCT(EyeSettings),     STRUCT(FilmSettings),
+    STRUCT(PlotSettings),     STRUCT(TreeRefit),       STRUCT(GatherSettings),  STRUCT(RepelSettings),
+    STRUCT(DescribeSettings), STRUCT(MoveSettings),    STRUCT(SurfaceSettings), STRUCT(CellSettings),
 };
 
 std::vector<std::uint32_t> compile(const KernelVariant& variant, std::uint64_t by_address = 0) {
