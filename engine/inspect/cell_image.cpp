@@ -17,13 +17,27 @@ void find_borders(CellImage& image) {
         }
 }
 
+namespace {
+
+std::vector<std::uint32_t> count_pixels(const CellImage& image, std::size_t cell_count) {
+    std::vector<std::uint32_t> counts(cell_count);
+    for (const std::int32_t id : image.ids)
+        if (id >= 0 && static_cast<std::size_t>(id) < cell_count)
+            ++counts[id];
+    return counts;
+}
+
+} // namespace
+
 Image paint_cells(const CellImage& image, std::span<const glm::vec3> colors, const CellPaint& paint) {
     Image painted{image.width, image.height, {}, {}};
     painted.rgb.reserve(3 * image.ids.size());
+    const std::vector<std::uint32_t> sizes = count_pixels(image, colors.size());
     for (std::size_t at = 0; at < image.ids.size(); ++at) {
         const std::int32_t id = image.ids[at];
         const bool has_cell = id >= 0 && static_cast<std::size_t>(id) < colors.size();
-        const bool is_border = paint.draws_borders && image.is_border[at] != 0;
+        const bool is_large = has_cell && sizes[id] >= paint.least_bordered;
+        const bool is_border = paint.draws_borders && is_large && image.is_border[at] != 0;
         const glm::vec3 color = is_border ? paint.border : has_cell ? colors[id] : paint.background;
         painted.rgb.insert(painted.rgb.end(), {color.r, color.g, color.b});
     }

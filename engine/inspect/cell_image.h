@@ -23,8 +23,9 @@ void find_borders(CellImage& image);
 
 struct CellPaint {
     bool draws_borders = true;
-    glm::vec3 border{0.0f};     // linear
-    glm::vec3 background{0.0f}; // linear, where there is no cell
+    std::uint32_t least_bordered = 16; // pixels of a cell; the borders of smaller ones would hide it
+    glm::vec3 border{0.0f};            // linear
+    glm::vec3 background{0.0f};        // linear, where there is no cell
 };
 
 // Linear colors by cell id; ids beyond them are background.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <glm/geometric.hpp>
 
@@ -16,7 +15,6 @@
 namespace photonloupe::inspect {
 namespace {
 
-constexpr float UNKNOWN = std::numeric_limits<float>::quiet_NaN();
 // Of the nearest photons the first of the point's own surface becomes the center.
 constexpr std::uint32_t CENTER_CANDIDATES = 64;
 // Least cosine between normals of one surface (METHODS §2).
@@ -151,7 +149,6 @@ void Look::describe_constraint(LoupeView& view) const {
 
 void Look::describe_path(LoupeView& view) const {
     LoupeNumbers& numbers = view.numbers;
-    numbers.signature = numbers.tortuosity = numbers.path_length = UNKNOWN;
     if (!photons.map.paths)
         return;
     const std::uint32_t ids[] = {*view.center};

@@ -2,6 +2,7 @@
 // The loupe: the photons around a point or a photon, and what is worth knowing of the one at its center.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -36,6 +37,8 @@ struct DriftEllipse {
     glm::vec3 along, across;               // u_b, v_b
     float half_along = 0, half_across = 0; // |D·u_b|, |D·v_b|, metres
 };
+
+inline constexpr float UNKNOWN = std::numeric_limits<float>::quiet_NaN();
 
 // What is known of the center; NaN: undefined, or not measured.
 struct LoupeNumbers {

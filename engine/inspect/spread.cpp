@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <glm/geometric.hpp>
 
@@ -27,12 +26,14 @@ Tangents build_tangents(const glm::dvec3& n) {
 Spread measure_spread(std::span<const glm::vec3> points, const glm::vec3& normal) {
     const Tangents plane = build_tangents(glm::dvec3(normal));
     const double count = static_cast<double>(std::max<std::size_t>(points.size(), 1));
+    // Counted from one of them: of points in one place nothing is left, where rounding would leave a direction.
+    const glm::dvec3 base(points.empty() ? glm::vec3(0.0f) : points[0]);
     glm::dvec3 mean(0.0);
     for (const glm::vec3& point : points)
-        mean += glm::dvec3(point) / count;
+        mean += (glm::dvec3(point) - base) / count;
     double uu = 0, uv = 0, vv = 0;
     for (const glm::vec3& point : points) {
-        const glm::dvec3 away = glm::dvec3(point) - mean;
+        const glm::dvec3 away = glm::dvec3(point) - base - mean;
         const double u = glm::dot(away, plane.u), v = glm::dot(away, plane.v);
         uu += u * u / count;
         uv += u * v / count;
@@ -46,8 +47,8 @@ Spread measure_spread(std::span<const glm::vec3> points, const glm::vec3& normal
     Spread spread{static_cast<float>(greater), static_cast<float>(less)};
     spread.along = glm::vec3(std::cos(angle) * plane.u + std::sin(angle) * plane.v);
     spread.across = glm::vec3(-std::sin(angle) * plane.u + std::cos(angle) * plane.v);
-    spread.isotropy = points.size() >= 2 && greater > 0 ? static_cast<float>(std::sqrt(less / greater))
-                                                        : std::numeric_limits<float>::quiet_NaN();
+    if (points.size() >= 2 && greater > 0)
+        spread.isotropy = static_cast<float>(std::sqrt(less / greater));
     return spread;
 }
 

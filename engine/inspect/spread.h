@@ -2,6 +2,7 @@
 // How points spread in a tangent plane: principal axes and their ratio ([SJL15] eq. 5).
 #pragma once
 
+#include <limits>
 #include <span>
 
 #include <glm/vec3.hpp>
@@ -13,7 +14,8 @@ struct Spread {
     float along_variance = 0;    // λ1, m²
     float across_variance = 0;   // λ2 ≤ λ1
     glm::vec3 along{}, across{}; // unit eigenvectors, in the plane; along × across is the normal
-    float isotropy = 0;          // t = √(λ2/λ1); NaN: fewer than two points, or all in one place
+    float isotropy =
+        std::numeric_limits<float>::quiet_NaN(); // t = √(λ2/λ1); NaN: fewer than two points, or all in one place
 };
 
 Spread measure_spread(std::span<const glm::vec3> points, const glm::vec3& normal);

@@ -62,7 +62,7 @@ Trajectory find_incident_trajectory(const PathView& path) {
     const glm::dvec3 normal = path.normals.empty() ? glm::dvec3(0.0) : glm::dvec3(path.normals.back());
     if (std::isnan(back.x) || normal == glm::dvec3(0.0))
         return {UNDEFINED, UNDEFINED};
-    return measure_angles(stand_up(back), stand_up(normal));
+    return measure_angles(stand_up(back), stand_up(glm::normalize(normal)));
 }
 
 } // namespace photonloupe::inspect

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The photon whose Voronoi cell each pixel's surface lies in: the nearest, ties by id. The walk has no stack: of a
-// complete tree the node behind a subtree follows from its index, so that a walk that ran out of turns goes on in the
-// next dispatch from where it stood.
-// Inputs: surface_points, surface_normals (see_surfaces.comp), tree_nodes, tree_positions, tree_normals.
+// The photon whose Voronoi cell each pixel's surface lies in: the nearest, ties by id. The walk has no stack: which
+// node of the complete tree comes next follows from the one it stands at, so that a walk that ran out of turns goes on
+// in the next dispatch.
+// Inputs: surface_points, surface_normals (see_surfaces.comp), tree_nodes, tree_positions, tree_normals, and
+// normal_bounds (two texels a node: least and greatest components of its photons' normals).
 // In and out: walks (x node to visit next, 0: done; y bits of the least measure; z photon).
 #include "shared/prelude.glsl"
 #include "shared/inspect.h"
 #include "photons/same_surface.glsl"
 #include "photons/tree_texels.glsl"
 #pragma binding texel tree_normals
+#pragma binding texel normal_bounds
 #pragma binding readonly vec4 surface_points
 #pragma binding readonly vec4 surface_normals
 #pragma binding uvec4 walks
@@ -20,6 +22,15 @@ vec3 point;
 vec3 normal;
 float least = INFINITY;
 uint nearest = NO_CELL;
+
+// What rounding may take from the cosine of a photon against that of its node.
+const float COSINE_SLACK = 1e-5;
+
+// Whether some normal within the node's bounds may belong to the pixel's surface.
+bool may_face_alike(uint node) {
+    vec3 most = max(normal * normal_bounds_at(2u * node).xyz, normal * normal_bounds_at(2u * node + 1u).xyz);
+    return settings.flatness == 0.0 || most.x + most.y + most.z + COSINE_SLACK > SAME_SURFACE_COSINE;
+}
 
 // Squared distance to a node's box, in the order of operations of a photon's: never above it.
 float measure_box(uint node) {
@@ -50,30 +61,32 @@ void scan_leaf(uint leaf) {
     }
 }
 
-// Its leaf's photons bound the walk from the start.
-void scan_own_leaf() {
-    uint node = 1u;
-    for (uint level = 0u; level < settings.leaf_level; ++level) {
-        ++turns;
-        uint axis = floatBitsToUint(tree_nodes_at(2u * node + 1u).w);
-        node = 2u * node + uint(point[min(axis, 2u)] >= tree_nodes_at(2u * node).w);
-    }
-    scan_leaf(node - (1u << settings.leaf_level));
+// The child on the point's side of a node's split.
+uint find_near_child(uint node) {
+    uint axis = floatBitsToUint(tree_nodes_at(2u * node + 1u).w);
+    return 2u * node + uint(point[min(axis, 2u)] >= tree_nodes_at(2u * node).w);
 }
 
-// The node after a subtree in depth-first order, 0 after the last.
-uint skip_subtree(uint node) {
-    uint next = (node + 1u) >> uint(findLSB(node + 1u));
-    return next == 1u ? 0u : next;
+// The node after a subtree, nearer children first: the sibling of the lowest near child on the way up; 0: none is left.
+uint leave_subtree(uint node) {
+    bool is_near = false;
+    while (node > 1u && !is_near) {
+        ++turns;
+        is_near = node == find_near_child(node >> 1u);
+        node = is_near ? node ^ 1u : node >> 1u;
+    }
+    return is_near ? node : 0u;
 }
 
 uint walk_from(uint node) {
     uint first_leaf = 1u << settings.leaf_level;
     while (node != 0u && turns < settings.turns) {
         ++turns;
-        bool is_wanted = measure_box(node) <= least; // at the same distance an id may be lower
+        // At the same distance an id may be lower.
+        bool is_wanted = measure_box(node) <= least && may_face_alike(node);
         if (is_wanted && node >= first_leaf) scan_leaf(node - first_leaf);
-        node = is_wanted && node < first_leaf ? 2u * node : skip_subtree(node);
+        if (is_wanted && node < first_leaf) node = find_near_child(node);
+        else node = leave_subtree(node);
     }
     return node;
 }
@@ -92,7 +105,6 @@ void main() {
     normal = surface_normals[pixel].xyz;
     least = uintBitsToFloat(walk.y);
     nearest = walk.z;
-    if (nearest == NO_CELL && walk.x == 1u) scan_own_leaf();
     uint node = walk_from(walk.x);
     walks[pixel] = uvec4(node, floatBitsToUint(least), nearest, 0u);
 }

@@ -10,11 +10,13 @@
 #include "gpu/kernel_source.h"
 #include "gpu/kernel_variants.h"
 #include "gpu/reflect_spirv.h"
+#include "shared/inspect.h"
 #include "shared/parallel.h"
 #include "shared/photons.h"
 #include "shared/relax.h"
 #include "shared/render.h"
 #include "shared/scene.h"
+#include "shared/splat.h"
 #include "shared/trace.h"
 
 namespace photonloupe::test {
@@ -24,13 +26,14 @@ namespace {
     { #type, measure_host_struct < shared::type>() }
 
 const std::map<std::string, HostStruct> HOST_STRUCTS{
-    STRUCT(Triangle),         STRUCT(TriangleNormals), STRUCT(Material),       STRUCT(Light),
-    STRUCT(BvhNode),          STRUCT(SceneHeader),     STRUCT(TraceSettings),  STRUCT(LightEmission),
-    STRUCT(PathSummary),      STRUCT(BalanceSum),      STRUCT(TreeNode),       STRUCT(TreeBuild),
-    STRUCT(NeighborQuery),    STRUCT(CameraFrame),     STRUCT(EyeSettings),    STRUCT(FilmSettings),
-    STRUCT(PlotSettings),     STRUCT(TreeRefit),       STRUCT(GatherSettings), STRUCT(RepelSettings),
-    STRUCT(DescribeSettings), STRUCT(MoveSettings),    STRUCT(CrossingJob),    STRUCT(CrossingSettings),
-    STRUCT(CoverageSettings), STRUCT(BlendSettings),   STRUCT(PixelSettings),
+    STRUCT(Triangle),         STRUCT(TriangleNormals), STRUCT(Material),        STRUCT(Light),
+    STRUCT(BvhNode),          STRUCT(SceneHeader),     STRUCT(TraceSettings),   STRUCT(LightEmission),
+    STRUCT(PathSummary),      STRUCT(BalanceSum),      STRUCT(TreeNode),        STRUCT(TreeBuild),
+    STRUCT(NeighborQuery),    STRUCT(CameraFrame),     STRUCT(EyeSettings),     STRUCT(FilmSettings),
+    STRUCT(PlotSettings),     STRUCT(TreeRefit),       STRUCT(GatherSettings),  STRUCT(RepelSettings),
+    STRUCT(DescribeSettings), STRUCT(MoveSettings),    STRUCT(CrossingJob),     STRUCT(CrossingSettings),
+    STRUCT(CoverageSettings), STRUCT(BlendSettings),   STRUCT(PixelSettings),   STRUCT(SurfaceSettings),
+    STRUCT(CellSettings),     STRUCT(SplatSettings),   STRUCT(ResolveSettings),
 };
 
 std::vector<std::uint32_t> compile(const KernelVariant& variant, std::uint64_t by_address = 0) {

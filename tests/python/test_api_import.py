@@ -3,9 +3,12 @@
 
 from __future__ import annotations
 
+import inspect
 import os
 import subprocess
 import sys
+from collections.abc import Callable
+from typing import Any
 
 import pytest
 
@@ -56,10 +59,17 @@ def test_public_name_is_there(name: str) -> None:
     assert hasattr(pl, name)
 
 
-@pytest.mark.parametrize("name", [name for name in pl.__all__ if name[0].islower()])
-def test_public_function_is_documented(name: str) -> None:
-    text = getattr(pl, name).__doc__
-    assert "Returns" in text
+PUBLIC_FUNCTIONS = [
+    getattr(module, name)
+    for module in (pl, pl.inspect)
+    for name in module.__all__
+    if inspect.isfunction(getattr(module, name))
+]
+
+
+@pytest.mark.parametrize("function", PUBLIC_FUNCTIONS, ids=lambda function: function.__name__)
+def test_public_function_is_documented(function: Callable[..., Any]) -> None:
+    assert "Returns" in (function.__doc__ or "")
 
 
 @pytest.mark.parametrize("error", [pl.SceneError, pl.ScriptError, pl.DeviceError, pl.ArgumentError, pl.FileFormatError])

@@ -110,8 +110,8 @@ def column(photons: PhotonMap, name: str, *, progress: ProgressLike = None) -> C
     --------
     >>> import photonloupe as pl
     >>> photons = pl.trace_photons(pl.load_scene("scenes/ring/ring.gltf"), count=10_000, seed=1)
-    >>> pl.inspect.column(photons, "signature").values.max()
-    np.float32(1.0)
+    >>> float(pl.inspect.column(photons, "signature").values.min())
+    1.0
     """
     native = upload_for(photons, (name,))
     with follow_progress(progress) as callback:
