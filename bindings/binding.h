@@ -99,5 +99,6 @@ void bind_script(nb::module_& module);
 void bind_relax(nb::module_& module);
 void bind_estimate(nb::module_& module);
 void bind_image(nb::module_& module);
+void bind_parallel_coordinates(nb::module_& module);
 
 } // namespace photonloupe::bindings

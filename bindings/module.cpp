@@ -21,4 +21,5 @@ NB_MODULE(_engine, module) {
     bindings::bind_relax(module);
     bindings::bind_estimate(module);
     bindings::bind_image(module);
+    bindings::bind_parallel_coordinates(module);
 }

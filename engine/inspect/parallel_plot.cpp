@@ -163,10 +163,20 @@ Curves join(const Curves& first, const Curves& second) {
     return joined;
 }
 
-// An image without curves is its background: the kernel then has one curve that covers nothing.
+void fill_background(gpu::Device& device, const CurveStyle& style, const gpu::Buffer& pixels) {
+    std::uint32_t color = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        color |= static_cast<std::uint32_t>(std::clamp(style.background[i], 0.0f, 1.0f) * 255.0f + 0.5f) << (8 * i);
+    gpu::Commands commands(device, "blend curves");
+    commands.fill(pixels, color);
+    commands.run();
+}
+
 void draw_each(gpu::Device& device, const AxisLayout& layout, const Curves& curves,
                const std::vector<glm::vec4>& colors, const CurveStyle& style, const gpu::Buffer& pixels) {
     const UploadedCurves uploaded(device, curves, layout);
+    if (uploaded.is_empty())
+        return fill_background(device, style, pixels);
     const gpu::Buffer column_gaps = gpu::make_buffer(device, list_column_gaps(layout), "gaps of columns");
     const gpu::Buffer color_buffer = gpu::make_buffer(device, colors, "colors of curves");
     const gpu::Buffer canvas(device, std::uint64_t{layout.width} * layout.height * sizeof(glm::vec4), "canvas");

@@ -11,6 +11,7 @@ Examples
 >>> pl.render(scene, photons, camera="top", width=64, height=64).save("ring.exr")
 """
 
+from photonloupe import inspect
 from photonloupe._engine import version as __version__
 from photonloupe.blue_noise import BlueNoise, measure_blue_noise
 from photonloupe.device import Device, devices
@@ -64,6 +65,7 @@ __all__ = [
     "compile_script",
     "devices",
     "find_primal_trajectory",
+    "inspect",
     "load_image",
     "load_photons",
     "load_scene",
