@@ -64,9 +64,8 @@ std::unique_ptr<OpenFigure> make(OpenDevice& open, const nb::list& axes, const I
         read.push_back(read_axis(nb::cast<nb::dict>(axis), read.size()));
     }
     const auto* first = reinterpret_cast<const glm::vec3*>(colors.data());
-    std::vector<glm::vec3> chosen{first, first + colors.shape(0)};
-    if (!color.is_none())
-        chosen = color_by_column(read_column(nb::cast<nb::dict>(color)));
+    const Column colored = color.is_none() ? Column{} : read_column(nb::cast<nb::dict>(color));
+    const CurveColors chosen{color.is_none() ? nullptr : &colored, {first, colors.shape(0)}};
     const FigureSettings asked = read_settings(settings);
     const Selection focused{focus.data(), focus.data() + focus.size()};
     nb::gil_scoped_release release;

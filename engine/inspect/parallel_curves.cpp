@@ -3,10 +3,16 @@
 #include "inspect/parallel_curves.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+
+#include "core/split_work.h"
 
 namespace photonloupe::inspect {
 namespace {
+
+// Curves below which another thread costs more than it saves.
+constexpr std::size_t LEAST_PART = 4096;
 
 // Weighted harmonic mean of the two slopes, 0 at an extreme: Fritsch and Butland 1984, within Fritsch and Carlson's
 // bounds (1980) for a monotone cubic.
@@ -67,20 +73,24 @@ void set_tangents_between_gaps(std::span<const glm::vec2> points, std::span<glm:
 Curves build_curves(std::span<const Column> columns, std::span<const Axis> axes, const AxisLayout& layout,
                     Selection photons, float tension) {
     Curves curves{std::move(photons), axes.size(), {}, {}, 0};
-    const std::size_t axis_count = axes.size(), gap_count = curves.gap_count();
-    curves.points.resize(curves.count() * axis_count);
+    const std::size_t gap_count = curves.gap_count();
+    curves.points.resize(curves.count() * axes.size());
     curves.tangents.assign(curves.count() * gap_count, glm::vec2(NAN));
-    for (std::size_t a = 0; a < axis_count; ++a) {
-        const std::vector<float>& values = columns[axes[a].column].values;
-        for (std::size_t i = 0; i < curves.count(); ++i)
-            curves.points[i * axis_count + a] = find_value_point(axes[a], layout.places[a], values[curves.photons[i]]);
-    }
-    for (std::size_t i = 0; i < curves.count(); ++i) {
-        const std::span points(&curves.points[i * axis_count], axis_count);
-        curves.broken_count += std::any_of(points.begin(), points.end(), [](glm::vec2 p) { return std::isnan(p.x); });
-        if (gap_count > 0)
-            set_tangents_between_gaps(points, {&curves.tangents[i * gap_count], gap_count}, tension);
-    }
+    std::atomic<std::size_t> broken_count = 0;
+    split_work(curves.count(), LEAST_PART, [&](std::size_t first, std::size_t end) {
+        std::size_t broken = 0;
+        for (std::size_t i = first; i < end; ++i) {
+            const std::span points(&curves.points[i * axes.size()], axes.size());
+            for (std::size_t a = 0; a < axes.size(); ++a)
+                points[a] =
+                    find_value_point(axes[a], layout.places[a], columns[axes[a].column].values[curves.photons[i]]);
+            broken += std::any_of(points.begin(), points.end(), [](glm::vec2 p) { return std::isnan(p.x); });
+            if (gap_count > 0)
+                set_tangents_between_gaps(points, {&curves.tangents[i * gap_count], gap_count}, tension);
+        }
+        broken_count += broken;
+    });
+    curves.broken_count = broken_count;
     return curves;
 }
 

@@ -11,7 +11,7 @@
 namespace photonloupe::inspect {
 namespace {
 
-constexpr double BINS_PER_BANDWIDTH = 8;
+constexpr double BINS_PER_BANDWIDTH = 6;
 // Standard deviations beyond which a kernel counts for nothing (e^-12.5).
 constexpr double REACH = 5;
 // A value put on two bins is spread by a triangle of this variance, in bins²; the kernel is narrower by as much.

@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <numeric>
 
-#include "core/error.h"
+#include "core/split_work.h"
 #include "inspect/colormap.h"
 
 namespace photonloupe::inspect {
 namespace {
+
+// Photons whose density another thread would not get sooner.
+constexpr std::size_t SMALL_SELECTION = 4096;
 
 Selection list_all(std::span<const Column> columns) {
     Selection all(columns.empty() ? 0 : columns[0].values.size());
@@ -36,10 +39,32 @@ Selection find_focus(std::span<const Axis> axes, std::span<const Column> columns
     return within.empty() ? within : select_brushed(axes, columns, within);
 }
 
+std::vector<AxisDensity> estimate_densities(std::span<const Column> columns, std::span<const Axis> axes,
+                                            const Selection& photons) {
+    std::vector<AxisDensity> densities(axes.size());
+    split_work(axes.size(), std::max<std::size_t>(SMALL_SELECTION / (photons.size() + 1), 1),
+               [&](std::size_t first, std::size_t end) {
+                   for (std::size_t i = first; i < end; ++i)
+                       densities[i] = estimate_density(columns[axes[i].column], axes[i], photons);
+               });
+    return densities;
+}
+
+// The colors that the figure's curves have: given by photon, or those of a column.
+std::vector<glm::vec3> choose_colors(const CurveColors& colors, const Selection& photons) {
+    if (colors.column)
+        return color_by_column(*colors.column, photons);
+    std::vector<glm::vec3> chosen;
+    if (!colors.by_photon.empty())
+        for (std::uint32_t photon : photons)
+            chosen.push_back(colors.by_photon[photon]);
+    return chosen;
+}
+
 } // namespace
 
 ParallelFigure make_parallel_figure(gpu::Device& device, std::span<const Column> columns, std::vector<Axis> axes,
-                                    const Selection& shown, const Selection& focus, std::span<const glm::vec3> colors,
+                                    const Selection& shown, const Selection& focus, const CurveColors& colors,
                                     const FigureSettings& settings) {
     check_axes(columns, axes);
     ParallelFigure figure;
@@ -50,23 +75,23 @@ ParallelFigure make_parallel_figure(gpu::Device& device, std::span<const Column>
     Selection selected = find_focus(figure.axes, columns, all, focus);
     figure.context = build_curves(columns, figure.axes, figure.layout, subtract(all, selected), settings.tension);
     figure.selected = build_curves(columns, figure.axes, figure.layout, std::move(selected), settings.tension);
-    if (!colors.empty())
-        for (std::uint32_t photon : figure.selected.photons)
-            figure.colors.push_back(colors[photon]);
+    if (figure.context.count() + figure.selected.count() <= settings.style.most_curves)
+        figure.colors = choose_colors(colors, figure.selected.photons);
     if (settings.has_density)
-        for (const Axis& axis : figure.axes)
-            figure.densities.push_back(estimate_density(columns[axis.column], axis, figure.selected.photons));
+        figure.densities = estimate_densities(columns, figure.axes, figure.selected.photons);
     figure.image = draw_curves(device, figure.layout, figure.context, figure.selected, figure.colors, settings.style);
     return figure;
 }
 
-std::vector<glm::vec3> color_by_column(const Column& column) {
+std::vector<glm::vec3> color_by_column(const Column& column, const Selection& photons) {
     const Colormap map = column.period > 0 ? Colormap::twilight : Colormap::viridis;
     const double extent = column.period > 0 ? column.period : double(column.high) - column.low;
     std::vector<glm::vec3> colors;
-    colors.reserve(column.values.size());
-    for (float value : column.values)
-        colors.push_back(map_color(map, extent > 0 ? static_cast<float>((double(value) - column.low) / extent) : 0.5f));
+    colors.reserve(photons.size());
+    for (std::uint32_t photon : photons) {
+        const double share = (double(column.values[photon]) - column.low) / extent;
+        colors.push_back(map_color(map, extent > 0 ? static_cast<float>(share) : 0.5f));
+    }
     return colors;
 }
 

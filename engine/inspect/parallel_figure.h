@@ -22,20 +22,26 @@ struct ParallelFigure {
     std::vector<Axis> axes;
     AxisLayout layout;
     Curves context, selected;           // all but what is in focus; what is
-    std::vector<glm::vec3> colors;      // by curve of `selected`, sRGB; empty: the style's
+    std::vector<glm::vec3> colors;      // by curve of `selected`, sRGB; empty: the style's, or a density
     std::vector<AxisDensity> densities; // of the selected, by axis; empty: none were asked for
     CurveStyle style;
     CurveImage image;
 };
 
+// What the curves in focus are colored by: a column, else colors by photon id (sRGB), else the style's one color.
+struct CurveColors {
+    const Column* column = nullptr;
+    std::span<const glm::vec3> by_photon;
+};
+
 // Shows `shown` (empty: all photons). In focus are those of `focus` (empty: all that are shown) that the brushes
-// select. Colors by photon id, sRGB, or none. Throws Error where axes make no sense or have no room.
+// select. Throws Error where axes make no sense or have no room.
 ParallelFigure make_parallel_figure(gpu::Device& device, std::span<const Column> columns, std::vector<Axis> axes,
-                                    const Selection& shown, const Selection& focus, std::span<const glm::vec3> colors,
+                                    const Selection& shown, const Selection& focus, const CurveColors& colors,
                                     const FigureSettings& settings = {});
 
-// Colors by photon id: a column from its low to its high through Viridis, through Twilight where it repeats.
-std::vector<glm::vec3> color_by_column(const Column& column);
+// Colors of photons: a column from its low to its high through Viridis, through Twilight where it repeats.
+std::vector<glm::vec3> color_by_column(const Column& column, const Selection& photons);
 
 // How axes are drawn, sRGB in hexadecimal and pixels; the same in SVG and PNG.
 struct FigureStyle {
