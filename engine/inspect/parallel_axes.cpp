@@ -28,7 +28,7 @@ double find_turn_length(const Axis& axis) {
 
 double wrap(double share) {
     const double rest = share - std::floor(share);
-    return rest < 1 ? rest : 0;
+    return rest >= 1 ? 0 : rest; // NaN stays NaN
 }
 
 } // namespace

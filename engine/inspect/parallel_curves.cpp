@@ -29,6 +29,11 @@ float find_end_tangent(float slope, float inner) {
     return (3 * slope - inner) / 2;
 }
 
+// Exactly `smooth` at tension 1: there are no kinks then.
+float blend(float straight, float smooth, float tension) {
+    return (1 - tension) * straight + tension * smooth;
+}
+
 // What `build_curves` works on for one photon, over the gaps of a run without missing values.
 struct Run {
     std::span<const glm::vec2> points;
@@ -49,8 +54,8 @@ void set_tangents(const Run& run) {
     for (std::size_t gap = 1; gap < gap_count; ++gap) {
         const float after = run.tangents[gap].x;
         const float inner = find_inner_tangent(before, after, run.width(gap - 1), run.width(gap));
-        run.tangents[gap - 1].y = before + run.tension * (inner - before);
-        run.tangents[gap].x = after + run.tension * (inner - after);
+        run.tangents[gap - 1].y = blend(before, inner, run.tension);
+        run.tangents[gap].x = blend(after, inner, run.tension);
         before = after;
     }
     run.tangents.front().x = find_end_tangent(run.slope(0), run.tangents.front().y);
