@@ -116,5 +116,6 @@ void bind_estimate(nb::module_& module);
 void bind_image(nb::module_& module);
 void bind_inspect(nb::module_& module);
 void bind_inspect_images(nb::module_& module);
+void bind_parallel_coordinates(nb::module_& module);
 
 } // namespace photonloupe::bindings

@@ -23,4 +23,5 @@ NB_MODULE(_engine, module) {
     bindings::bind_image(module);
     bindings::bind_inspect(module);
     bindings::bind_inspect_images(module);
+    bindings::bind_parallel_coordinates(module);
 }

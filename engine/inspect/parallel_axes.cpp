@@ -28,7 +28,7 @@ double find_turn_length(const Axis& axis) {
 
 double wrap(double share) {
     const double rest = share - std::floor(share);
-    return rest < 1 ? rest : 0;
+    return rest >= 1 ? 0 : rest; // NaN stays NaN
 }
 
 } // namespace
@@ -55,8 +55,8 @@ void check_axes(std::span<const Column> columns, std::span<const Axis> axes) {
         if (axis.periods == 0)
             throw Error(named + " has 0 periods; its range winds round at least once");
         for (const Interval& brush : axis.brushes)
-            if (std::isnan(brush.low) || std::isnan(brush.high))
-                throw Error(named + " has a brush that ends at NaN; give it two values");
+            if (!std::isfinite(brush.low) || !std::isfinite(brush.high))
+                throw Error(named + " has a brush whose end is not a finite number; give it two values");
     }
 }
 

@@ -49,8 +49,8 @@ struct LayoutMargins {
 // An axis over the whole range of the column; closed where the column repeats.
 Axis make_axis(std::span<const Column> columns, std::size_t column);
 
-// Throws Error that names the axis: unknown column, limits that are not finite or stand reversed, no period, an
-// interval with NaN.
+// Throws Error that names the axis: unknown column, limits or ends of brushes that are not finite, limits that
+// stand reversed, no period.
 void check_axes(std::span<const Column> columns, std::span<const Axis> axes);
 
 // Spreads axes evenly over an image, on borders between pixels. Throws Error when there is no room for them.
@@ -83,6 +83,12 @@ void move_axis(std::vector<Axis>& axes, std::size_t from, std::size_t to);
 void zoom_axis(Axis& axis, float first, float second);
 // The column's whole range again.
 void reset_axis(Axis& axis, std::span<const Column> columns);
+
+// The area `width` pixels to either side of the axis from the interval's low end to its high one; empty where the
+// interval lies beyond the ends of an open axis.
+std::vector<glm::vec2> outline_brush(const Axis& axis, const AxisPlace& place, const Interval& brush, float width);
+// The direction away from the axis: right of a line, along the normal of an ellipse.
+glm::vec2 find_outward(const AxisPlace& place, glm::vec2 point);
 
 bool has_brushes(std::span<const Axis> axes);
 // Photons that every brushed axis selects, of `within` (empty: of all). No value: never. On an ellipse that the range

@@ -1,13 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Selects photons by the intervals brushed on the axes: or-ed on an axis, and-ed between axes.
+// Intervals brushed on the axes: the photons they select, or-ed on an axis and and-ed between axes, and their outlines.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+
+#include <glm/geometric.hpp>
 
 #include "inspect/parallel_axes.h"
 
 namespace photonloupe::inspect {
 namespace {
+
+// Straight pieces of a brush's outline.
+constexpr int BRUSH_STEPS = 64;
+
+double find_turn(const Axis& axis) {
+    return (double(axis.high) - axis.low) / axis.periods;
+}
 
 double wrap_difference(double value, double turn) {
     return value - turn * std::floor(value / turn);
@@ -24,13 +33,49 @@ bool is_in_arc(const Interval& brush, double turn, float value) {
 bool is_brushed(const Axis& axis, float value) {
     if (!std::isfinite(value))
         return false;
-    const double turn = (double(axis.high) - axis.low) / axis.periods;
+    const double turn = find_turn(axis);
     return std::any_of(axis.brushes.begin(), axis.brushes.end(), [&](const Interval& brush) {
         return axis.is_closed ? is_in_arc(brush, turn, value) : value >= brush.low && value <= brush.high;
     });
 }
 
+// First and last share of an interval, the last beyond 1 where it goes through a closed axis's ends.
+struct ShareRange {
+    double first, last;
+};
+
+ShareRange find_range(const Axis& axis, const Interval& brush) {
+    const double turn = find_turn(axis);
+    if (!axis.is_closed || !(turn > 0))
+        return {find_share(axis, std::clamp(brush.low, axis.low, axis.high)),
+                find_share(axis, std::clamp(brush.high, axis.low, axis.high))};
+    const double first = find_share(axis, brush.low), length = double(brush.high) - brush.low;
+    return {first, first + (length >= turn ? 1 : wrap_difference(length, turn) / turn)};
+}
+
 } // namespace
+
+glm::vec2 find_outward(const AxisPlace& place, glm::vec2 point) {
+    if (place.rx == 0)
+        return {1, 0};
+    const glm::vec2 offset = point - place.center;
+    return glm::normalize(offset / glm::vec2(place.rx * place.rx, place.ry * place.ry));
+}
+
+std::vector<glm::vec2> outline_brush(const Axis& axis, const AxisPlace& place, const Interval& brush, float width) {
+    const bool is_outside = !axis.is_closed && (brush.low > axis.high || brush.high < axis.low);
+    if (is_outside || (!axis.is_closed && brush.low > brush.high))
+        return {};
+    const auto [first, last] = find_range(axis, brush);
+    std::vector<glm::vec2> outer, outline;
+    for (int i = 0; i <= BRUSH_STEPS; ++i) {
+        const glm::vec2 point = find_point(axis, place, first + (last - first) * i / BRUSH_STEPS);
+        outer.push_back(point + width * find_outward(place, point));
+        outline.push_back(point - width * find_outward(place, point));
+    }
+    outline.insert(outline.end(), outer.rbegin(), outer.rend());
+    return outline;
+}
 
 Selection select_brushed(std::span<const Axis> axes, std::span<const Column> columns, const Selection& within) {
     Selection chosen = within;

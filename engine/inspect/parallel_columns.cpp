@@ -6,10 +6,14 @@
 #include <bit>
 #include <cmath>
 
+#include "core/split_work.h"
+
 namespace photonloupe::inspect {
 namespace {
 
 constexpr std::uint32_t RISES = 1;
+// Curves below which another thread costs more than it saves.
+constexpr std::size_t LEAST_PART = 4096;
 
 std::int32_t clip(float x, std::uint32_t width) {
     return static_cast<std::int32_t>(std::clamp(x, 0.0f, static_cast<float>(width)));
@@ -135,17 +139,19 @@ Polynomials fit_polynomials(const Curves& curves, const AxisLayout& layout) {
     Polynomials fitted;
     fitted.coefficients.resize(count * gap_count);
     fitted.extents.resize(count * gap_count);
-    for (std::size_t i = 0; i < count; ++i)
-        for (std::size_t g = 0; g < gap_count; ++g) {
-            const glm::vec2 tangents = curves.tangents[i * gap_count + g];
-            if (std::isnan(tangents.x))
-                continue;
-            const glm::dvec2 from = curves.points[i * curves.axis_count + g];
-            const glm::dvec2 to = curves.points[i * curves.axis_count + g + 1];
-            const double base = columns[g].first;
-            fitted.coefficients[g * count + i] = fit_cubic({from, to, tangents, base});
-            fitted.extents[g * count + i] = {from.x - base, to.x - base, 0, 0};
-        }
+    split_work(count, LEAST_PART, [&](std::size_t first, std::size_t end) {
+        for (std::size_t g = 0; g < gap_count; ++g)
+            for (std::size_t i = first; i < end; ++i) {
+                const glm::vec2 tangents = curves.tangents[i * gap_count + g];
+                if (std::isnan(tangents.x))
+                    continue;
+                const glm::dvec2 from = curves.points[i * curves.axis_count + g];
+                const glm::dvec2 to = curves.points[i * curves.axis_count + g + 1];
+                const double base = columns[g].first;
+                fitted.coefficients[g * count + i] = fit_cubic({from, to, tangents, base});
+                fitted.extents[g * count + i] = {from.x - base, to.x - base, 0, 0};
+            }
+    });
     return fitted;
 }
 

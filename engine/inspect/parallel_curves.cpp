@@ -3,10 +3,16 @@
 #include "inspect/parallel_curves.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+
+#include "core/split_work.h"
 
 namespace photonloupe::inspect {
 namespace {
+
+// Curves below which another thread costs more than it saves.
+constexpr std::size_t LEAST_PART = 4096;
 
 // Weighted harmonic mean of the two slopes, 0 at an extreme: Fritsch and Butland 1984, within Fritsch and Carlson's
 // bounds (1980) for a monotone cubic.
@@ -21,6 +27,11 @@ float find_inner_tangent(float before, float after, float width_before, float wi
 // Where a run of points ends the curve does not bend; at most 1.5 times the slope, so monotone too.
 float find_end_tangent(float slope, float inner) {
     return (3 * slope - inner) / 2;
+}
+
+// Exactly `smooth` at tension 1: there are no kinks then.
+float blend(float straight, float smooth, float tension) {
+    return (1 - tension) * straight + tension * smooth;
 }
 
 // What `build_curves` works on for one photon, over the gaps of a run without missing values.
@@ -43,8 +54,8 @@ void set_tangents(const Run& run) {
     for (std::size_t gap = 1; gap < gap_count; ++gap) {
         const float after = run.tangents[gap].x;
         const float inner = find_inner_tangent(before, after, run.width(gap - 1), run.width(gap));
-        run.tangents[gap - 1].y = before + run.tension * (inner - before);
-        run.tangents[gap].x = after + run.tension * (inner - after);
+        run.tangents[gap - 1].y = blend(before, inner, run.tension);
+        run.tangents[gap].x = blend(after, inner, run.tension);
         before = after;
     }
     run.tangents.front().x = find_end_tangent(run.slope(0), run.tangents.front().y);
@@ -67,20 +78,24 @@ void set_tangents_between_gaps(std::span<const glm::vec2> points, std::span<glm:
 Curves build_curves(std::span<const Column> columns, std::span<const Axis> axes, const AxisLayout& layout,
                     Selection photons, float tension) {
     Curves curves{std::move(photons), axes.size(), {}, {}, 0};
-    const std::size_t axis_count = axes.size(), gap_count = curves.gap_count();
-    curves.points.resize(curves.count() * axis_count);
+    const std::size_t gap_count = curves.gap_count();
+    curves.points.resize(curves.count() * axes.size());
     curves.tangents.assign(curves.count() * gap_count, glm::vec2(NAN));
-    for (std::size_t a = 0; a < axis_count; ++a) {
-        const std::vector<float>& values = columns[axes[a].column].values;
-        for (std::size_t i = 0; i < curves.count(); ++i)
-            curves.points[i * axis_count + a] = find_value_point(axes[a], layout.places[a], values[curves.photons[i]]);
-    }
-    for (std::size_t i = 0; i < curves.count(); ++i) {
-        const std::span points(&curves.points[i * axis_count], axis_count);
-        curves.broken_count += std::any_of(points.begin(), points.end(), [](glm::vec2 p) { return std::isnan(p.x); });
-        if (gap_count > 0)
-            set_tangents_between_gaps(points, {&curves.tangents[i * gap_count], gap_count}, tension);
-    }
+    std::atomic<std::size_t> broken_count = 0;
+    split_work(curves.count(), LEAST_PART, [&](std::size_t first, std::size_t end) {
+        std::size_t broken = 0;
+        for (std::size_t i = first; i < end; ++i) {
+            const std::span points(&curves.points[i * axes.size()], axes.size());
+            for (std::size_t a = 0; a < axes.size(); ++a)
+                points[a] =
+                    find_value_point(axes[a], layout.places[a], columns[axes[a].column].values[curves.photons[i]]);
+            broken += std::any_of(points.begin(), points.end(), [](glm::vec2 p) { return std::isnan(p.x); });
+            if (gap_count > 0)
+                set_tangents_between_gaps(points, {&curves.tangents[i * gap_count], gap_count}, tension);
+        }
+        broken_count += broken;
+    });
+    curves.broken_count = broken_count;
     return curves;
 }
 

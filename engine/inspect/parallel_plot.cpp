@@ -26,15 +26,18 @@ struct UploadedCurves {
     std::uint32_t gap_count;
     gpu::Buffer coefficients, extents;
 
-    UploadedCurves(gpu::Device& device, const Curves& curves, const AxisLayout& layout)
+    UploadedCurves(gpu::Device& device, const Curves& curves, const AxisLayout& layout, bool needs_extents)
         : count(static_cast<std::uint32_t>(curves.count())), gap_count(static_cast<std::uint32_t>(curves.gap_count())) {
         if (is_empty())
             return;
         const Polynomials fitted = fit_polynomials(curves, layout);
         coefficients = gpu::make_buffer(device, fitted.coefficients, "curves");
-        extents = gpu::make_buffer(device, fitted.extents, "extents of curves");
+        if (needs_extents)
+            extents = gpu::make_buffer(device, fitted.extents, "extents of curves");
     }
     bool is_empty() const { return count == 0 || gap_count == 0; }
+    // What a kernel that reads no extents may be given for them.
+    const gpu::Buffer& get_extents() const { return extents.is_empty() ? coefficients : extents; }
 };
 
 CountSplit complete_split(const gpu::Device& device, const CountSplit& asked) {
@@ -107,7 +110,7 @@ private:
             commands.dispatch({"inspect/count_crossings.comp", WORKGROUP, defines, {}},
                               {{"jobs", m_job_buffer},
                                {"curves", curves.coefficients},
-                               {"extents", curves.extents},
+                               {"extents", curves.get_extents()},
                                {"crossings", m_crossings}},
                               push, invocations);
     }
@@ -163,10 +166,20 @@ Curves join(const Curves& first, const Curves& second) {
     return joined;
 }
 
-// An image without curves is its background: the kernel then has one curve that covers nothing.
+void fill_background(gpu::Device& device, const CurveStyle& style, const gpu::Buffer& pixels) {
+    std::uint32_t color = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        color |= static_cast<std::uint32_t>(std::clamp(style.background[i], 0.0f, 1.0f) * 255.0f + 0.5f) << (8 * i);
+    gpu::Commands commands(device, "blend curves");
+    commands.fill(pixels, color);
+    commands.run();
+}
+
 void draw_each(gpu::Device& device, const AxisLayout& layout, const Curves& curves,
                const std::vector<glm::vec4>& colors, const CurveStyle& style, const gpu::Buffer& pixels) {
-    const UploadedCurves uploaded(device, curves, layout);
+    const UploadedCurves uploaded(device, curves, layout, true);
+    if (uploaded.is_empty())
+        return fill_background(device, style, pixels);
     const gpu::Buffer column_gaps = gpu::make_buffer(device, list_column_gaps(layout), "gaps of columns");
     const gpu::Buffer color_buffer = gpu::make_buffer(device, colors, "colors of curves");
     const gpu::Buffer canvas(device, std::uint64_t{layout.width} * layout.height * sizeof(glm::vec4), "canvas");
@@ -206,9 +219,11 @@ Coverage count_coverage(gpu::Device& device, const AxisLayout& layout, const Cur
     clear.fill(coverage.largest, 0);
     clear.run();
     const std::uint32_t band = std::min(layout.height, shared::LARGEST_BAND);
+    const bool has_closed =
+        std::any_of(layout.places.begin(), layout.places.end(), [](const AxisPlace& place) { return place.rx > 0; });
     std::optional<BandCount> count;
     for (const std::uint32_t set : {0u, 1u}) {
-        const UploadedCurves curves(device, set == 0 ? context : selected, layout);
+        const UploadedCurves curves(device, set == 0 ? context : selected, layout, has_closed);
         if (curves.is_empty())
             continue;
         if (!count)

@@ -17,9 +17,13 @@ from photonloupe.inspect.columns import Column, ColumnInfo, column, columns
 from photonloupe.inspect.error_map import ErrorMap, error_map
 from photonloupe.inspect.histogram import ColumnHistogram, histogram
 from photonloupe.inspect.loupe import LoupeNumbers, LoupeView, PathLine, loupe
+from photonloupe.inspect.parallel_axes import Axis
+from photonloupe.inspect.parallel_coordinates import AxisDensity, ParallelCoordinates, parallel_coordinates
 from photonloupe.inspect.scatter import ScatterPlot, scatter
 
 __all__ = [
+    "Axis",
+    "AxisDensity",
     "CellView",
     "Column",
     "ColumnHistogram",
@@ -28,6 +32,7 @@ __all__ = [
     "LoupeNumbers",
     "LoupeView",
     "NodeBox",
+    "ParallelCoordinates",
     "PathLine",
     "ScatterPlot",
     "SurfaceView",
@@ -37,6 +42,7 @@ __all__ = [
     "histogram",
     "kd_tree",
     "loupe",
+    "parallel_coordinates",
     "scatter",
     "surfaces",
     "voronoi",

@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Axes of parallel coordinates: the column behind a name, and how it is shown."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from photonloupe.checks import check_count, check_number
+from photonloupe.errors import ArgumentError
+
+if TYPE_CHECKING:
+    from photonloupe.photons import PhotonMap
+
+_LARGEST = float(np.finfo(np.float32).max)
+MOST_PERIODS = 1000
+# Whole numbers of which there are no more than this are counted, not smoothed.
+MOST_DISTINCT = 64
+_WORLD = ("x", "y", "z")
+
+
+@dataclass(frozen=True)
+class Axis:
+    """How one column is shown.
+
+    Attributes
+    ----------
+    name
+        Of the column: ``"x"``, ``"y"``, ``"z"``, a parameter's name, or a key of the arrays given.
+    low, high
+        Range between the axis's ends, in the column's unit; default its bounds, or its least and largest value.
+    closed
+        True: an ellipse whose start is its end; None: where the column is periodic.
+    periods
+        How often the range winds round the ellipse, from 1.
+    flipped
+        True: downwards, or clockwise.
+    brush
+        Intervals ``(low, high)``, both ends included; photons in any of them are in focus. On a closed axis low may
+        be the larger: the interval then goes on through the ends.
+    """
+
+    name: str
+    low: float | None = None
+    high: float | None = None
+    closed: bool | None = None
+    periods: int = 1
+    flipped: bool = False
+    brush: Sequence[tuple[float, float]] = ()
+
+
+@dataclass(frozen=True)
+class ShownColumn:
+    """A number per photon, as the engine plots it."""
+
+    name: str
+    label: str
+    values: NDArray[np.float32]
+    low: float
+    high: float
+    period: float
+    is_discrete: bool
+
+    def describe(self) -> dict[str, Any]:
+        """Turn into what the engine takes."""
+        return dict(vars(self))
+
+
+def find_column(photons: PhotonMap | Mapping[str, ArrayLike], name: str) -> ShownColumn:
+    """Return the column of that name, or raise `ArgumentError` that lists those there are."""
+    if isinstance(photons, Mapping):
+        if name not in photons:
+            raise ArgumentError(f"there is no array {name!r}; there are {', '.join(map(str, photons))}")
+        return _measure_column(name, name, photons[name])
+    if name in _WORLD:
+        return _measure_column(name, f"{name} [m]", photons.positions[:, _WORLD.index(name)])
+    for i, parameter in enumerate(photons.parameter_list):
+        if parameter.name == name:
+            column = _measure_column(name, name, photons.parameters[:, i])
+            period = parameter.high - parameter.low if parameter.periodic else 0.0
+            return ShownColumn(name, name, column.values, parameter.low, parameter.high, period, column.is_discrete)
+    known = ", ".join((*_WORLD, *photons.parameter_names))
+    raise ArgumentError(f"there is no column {name!r}; there are {known}")
+
+
+def _measure_column(name: str, label: str, given: ArrayLike) -> ShownColumn:
+    array = np.asarray(given)
+    if array.ndim != 1 or array.dtype.kind not in "fiub":
+        raise ArgumentError(f"{name} must be numbers of shape (n,), not {array.dtype} {array.shape}")
+    with np.errstate(over="ignore"):
+        values = np.ascontiguousarray(array, dtype=np.float32)
+    finite = values[np.isfinite(values)]
+    low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 0.0)
+    is_whole = bool(len(finite)) and bool(np.all(finite == np.floor(finite)))
+    is_discrete = is_whole and len(np.unique(finite)) <= MOST_DISTINCT
+    return ShownColumn(name, label, values, low, high, 0.0, is_discrete)
+
+
+def complete_axis(axis: Axis, column: ShownColumn, closed: bool) -> Axis:
+    """Return `axis` with limits and form filled in, or raise `ArgumentError` that names it."""
+    where = f"axis {axis.name}"
+    low = column.low if axis.low is None else check_number(f"{where}: low", axis.low, -_LARGEST, _LARGEST)
+    high = column.high if axis.high is None else check_number(f"{where}: high", axis.high, -_LARGEST, _LARGEST)
+    if low > high:
+        raise ArgumentError(f"{where} runs from {low:g} down to {high:g}; swap the limits and set flipped=True")
+    periods = check_count(f"{where}: periods", axis.periods, 1, MOST_PERIODS)
+    is_closed = closed if axis.closed is None else bool(axis.closed)
+    brush = tuple(check_interval(where, interval, is_closed) for interval in axis.brush)
+    return Axis(axis.name, low, high, is_closed, periods, bool(axis.flipped), brush)
+
+
+def check_interval(where: str, interval: Any, is_closed: bool) -> tuple[float, float]:
+    """Return a brushed interval, or raise `ArgumentError`."""
+    try:
+        low, high = interval
+    except (TypeError, ValueError):
+        raise ArgumentError(f"{where}: a brush is a pair (low, high), not {interval!r}") from None
+    low = check_number(f"{where}: low end of a brush", low, -_LARGEST, _LARGEST)
+    high = check_number(f"{where}: high end of a brush", high, -_LARGEST, _LARGEST)
+    if low > high and not is_closed:
+        raise ArgumentError(f"{where}: brush ({low:g}, {high:g}) ends before it begins; only a closed axis goes on")
+    return low, high
+
+
+def describe_axis(axis: Axis) -> dict[str, Any]:
+    """Turn a completed axis into what the engine takes."""
+    names = ("low", "high", "closed", "periods", "flipped")
+    return {name: getattr(axis, name) for name in names} | {"brush": list(axis.brush)}
