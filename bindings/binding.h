@@ -106,6 +106,9 @@ private:
     std::exception_ptr m_raised;
 };
 
+// A camera by its name, or by its place and axes.
+CameraChoice read_camera(nb::handle given);
+
 void bind_device(nb::module_& module);
 void bind_scene(nb::module_& module);
 void bind_trace(nb::module_& module);
@@ -117,5 +120,6 @@ void bind_image(nb::module_& module);
 void bind_inspect(nb::module_& module);
 void bind_inspect_images(nb::module_& module);
 void bind_parallel_coordinates(nb::module_& module);
+void bind_studio(nb::module_& module);
 
 } // namespace photonloupe::bindings

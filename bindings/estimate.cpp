@@ -55,7 +55,7 @@ nb::ndarray<nb::numpy, float> estimate(OpenDevice& open, Photons& photons, Matri
 
 RenderSettings read_settings(const nb::dict& given) {
     RenderSettings settings;
-    settings.camera = nb::cast<std::string>(given["camera"]);
+    settings.camera = read_camera(given["camera"]);
     settings.width = nb::cast<std::uint32_t>(given["width"]);
     settings.height = nb::cast<std::uint32_t>(given["height"]);
     settings.samples = nb::cast<std::uint32_t>(given["samples"]);
@@ -77,6 +77,18 @@ nb::ndarray<nb::numpy, float, nb::ndim<3>> render(OpenDevice& open, const Scene&
 }
 
 } // namespace
+
+CameraChoice read_camera(nb::handle given) {
+    if (nb::isinstance<nb::str>(given))
+        return {nb::cast<std::string>(given), std::nullopt};
+    Camera camera;
+    camera.position = nb::cast<std::array<double, 3>>(given["position"]);
+    camera.right = nb::cast<std::array<double, 3>>(given["right"]);
+    camera.up = nb::cast<std::array<double, 3>>(given["up"]);
+    camera.backward = nb::cast<std::array<double, 3>>(given["backward"]);
+    camera.yfov = nb::cast<double>(given["yfov"]);
+    return {{}, camera};
+}
 
 void bind_estimate(nb::module_& module) {
     module.def("estimate_irradiance", &estimate, nb::arg("device"), nb::arg("photons"), nb::arg("points"),

@@ -26,12 +26,12 @@ nb::dict describe_cells(CellImage cells, Image painted) {
 
 // What of a view Python says; read before the GIL is given up.
 struct ViewAsked {
-    std::string camera;
+    CameraChoice camera;
     std::uint32_t width = 0, height = 0;
 };
 
 ViewAsked read_view(const nb::dict& given) {
-    return {nb::cast<std::string>(given["camera"]), nb::cast<std::uint32_t>(given["width"]),
+    return {read_camera(given["camera"]), nb::cast<std::uint32_t>(given["width"]),
             nb::cast<std::uint32_t>(given["height"])};
 }
 

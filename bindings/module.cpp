@@ -24,4 +24,5 @@ NB_MODULE(_engine, module) {
     bindings::bind_inspect(module);
     bindings::bind_inspect_images(module);
     bindings::bind_parallel_coordinates(module);
+    bindings::bind_studio(module);
 }

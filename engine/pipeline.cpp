@@ -213,6 +213,14 @@ gpu::Buffer Workbench::estimate_irradiance(Photons& photons, std::span<const glm
         gpu::make_buffer(m_device, normals, "normals"), order_points(points), settings, progress);
 }
 
+void Workbench::build_view_trees(Photons& photons, const Progress& progress) {
+    find_tree(photons, progress);
+    if (!photons.map.parameters)
+        return;
+    find_parameter_tree(photons, progress);
+    find_tree_layers(photons, progress);
+}
+
 inspect::SurfaceView Workbench::see_surfaces(const Scene& scene, const shared::CameraFrame& camera, std::uint32_t width,
                                              std::uint32_t height, const Progress& progress) {
     return inspect::see_surfaces(m_device, scene, *find_buffers(scene), camera, width, height, progress);

@@ -94,6 +94,9 @@ public:
     // The scene on the device, kept until another one is asked for.
     std::shared_ptr<const SceneBuffers> find_buffers(const Scene& scene);
 
+    // All trees that queries of views ask for, so that several threads may then look at the photons.
+    void build_view_trees(Photons& photons, const Progress& progress = {});
+
     // What a camera sees of the scene, for looking at photons on it.
     inspect::SurfaceView see_surfaces(const Scene& scene, const shared::CameraFrame& camera, std::uint32_t width,
                                       std::uint32_t height, const Progress& progress = {});

@@ -37,7 +37,10 @@ Camera fit_camera(const Scene& scene) {
 
 } // namespace
 
-Camera find_camera(const Scene& scene, const std::string& name) {
+Camera find_camera(const Scene& scene, const CameraChoice& choice) {
+    if (choice.placed)
+        return *choice.placed;
+    const std::string& name = choice.name;
     if (name.empty())
         return scene.cameras.empty() ? fit_camera(scene) : scene.cameras.front();
     std::string names;

@@ -2,14 +2,20 @@
 // Which camera looks at the scene, as the kernels use it.
 #pragma once
 
+#include <optional>
+
 #include "scene/scene.h"
 #include "shared/render.h"
 
 namespace photonloupe {
 
-// The camera of that name; with an empty name the first, or, without cameras, one that sees all of the scene.
+struct CameraChoice {
+    std::string name;             // of one of the scene's; empty: the first, else one that fits the bounds
+    std::optional<Camera> placed; // instead of any of them
+};
+
 // Throws SceneError naming the cameras there are.
-Camera find_camera(const Scene& scene, const std::string& name);
+Camera find_camera(const Scene& scene, const CameraChoice& choice);
 
 // The vertical field of view is kept whatever the image's aspect.
 shared::CameraFrame frame_camera(const Scene& scene, const Camera& camera, std::uint32_t width, std::uint32_t height);

@@ -2,6 +2,7 @@
 // The picture: eye paths through mirrors and glass, direct light with shadow rays, and the photon map's irradiance.
 #pragma once
 
+#include "estimate/camera_frame.h"
 #include "estimate/estimate_irradiance.h"
 #include "image/image.h"
 #include "scene/scene_buffers.h"
@@ -19,7 +20,7 @@ enum class RenderMode {
 };
 
 struct RenderSettings {
-    std::string camera; // empty: the first, else one that fits the bounds
+    CameraChoice camera;
     std::uint32_t width = 512;
     std::uint32_t height = 512;
     std::uint32_t samples = 4; // per pixel

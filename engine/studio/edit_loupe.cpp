@@ -97,6 +97,7 @@ void measure_constraint_command(Workspace& workspace) {
 }
 
 void step_relaxation(Workspace& workspace) {
+    workspace.done.erase("relax");
     workspace.change("relaxation step", [](StudioState& state) {
         begin_relaxation(state.relax);
         ++state.relax.made;
@@ -105,6 +106,7 @@ void step_relaxation(Workspace& workspace) {
 }
 
 void run_relaxation(Workspace& workspace) {
+    workspace.done.erase("relax");
     workspace.change("relax", [](StudioState& state) {
         begin_relaxation(state.relax);
         state.relax.made = std::max(state.relax.choices.steps, state.relax.made);

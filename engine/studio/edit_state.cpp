@@ -14,7 +14,7 @@ namespace photonloupe::studio {
 namespace {
 
 void after_jump(Workspace& workspace, const char* what, const std::string& name) {
-    ++workspace.selection_version;
+    workspace.drop_unknown_ids();
     ++workspace.loupe_version;
     workspace.say(std::string(what) + ": " + name);
 }

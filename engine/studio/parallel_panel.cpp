@@ -236,6 +236,7 @@ void ParallelPanel::take_mouse(Workspace& workspace, float x, float y) {
     if (ImGui::IsItemActivated()) {
         const std::optional<std::size_t> axis = inspect::find_axis(m_plot.layout, pixel, REACH * workspace.scale);
         m_grip = Grip::none;
+        m_has_moved = false;
         if (axis) {
             m_axis = *axis;
             m_begin = inspect::find_value(m_plot.axes[m_axis], m_plot.layout.places[m_axis], pixel);
@@ -252,7 +253,8 @@ void ParallelPanel::take_mouse(Workspace& workspace, float x, float y) {
                 });
         }
     }
-    if (ImGui::IsItemActive() && m_grip == Grip::brush && ImGui::IsMouseDragging(0, 2))
+    m_has_moved |= ImGui::IsItemActive() && ImGui::IsMouseDragging(0, 2);
+    if (ImGui::IsItemActive() && m_grip == Grip::brush && m_has_moved)
         brush(workspace, m_begin,
               inspect::find_value(m_plot.axes[m_axis], m_plot.layout.places[m_axis], pixel, m_begin), false);
     if (!ImGui::IsItemDeactivated())
@@ -279,7 +281,7 @@ void ParallelPanel::take_mouse(Workspace& workspace, float x, float y) {
         });
     }
     // A click takes the axis' brushes away.
-    if (m_grip == Grip::brush && !ImGui::IsMouseDragPastThreshold(0, 2))
+    if (m_grip == Grip::brush && !m_has_moved)
         workspace.change("brush", [&](StudioState& state) {
             state.parallel.axes[at].brushes.clear();
             workspace.select(find_brushed(workspace));

@@ -2,6 +2,7 @@
 // Writes the state as JSON and reads it back, refusing what it may not be.
 #include "studio/session.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -196,7 +197,7 @@ public:
     void ids(const char* name, Ids& value) {
         const Json* found = find(name);
         if (found && !found->is_null())
-            value = std::make_shared<const std::vector<std::uint32_t>>(take_ids(*found, place(name), MOST_IDS));
+            value = take_selection(*found, place(name));
     }
     void ids_by_name(const char* name, std::map<std::string, Ids>& values, std::size_t most, std::size_t longest) {
         const Json* found = find(name);
@@ -206,8 +207,7 @@ public:
         for (const auto& [key, chosen] : found->items()) {
             if (key.size() > longest)
                 refuse_field(place(name), "has a name that is too long");
-            values[key] = std::make_shared<const std::vector<std::uint32_t>>(
-                take_ids(chosen, place(name) + "." + quote_text(key), MOST_IDS));
+            values[key] = take_selection(chosen, place(name) + "." + quote_text(key));
         }
     }
 
@@ -251,6 +251,13 @@ private:
         for (const Json& entry : value)
             ids.push_back(static_cast<std::uint32_t>(take_number(entry, where, 0, 4294967294.0, true)));
         return ids;
+    }
+    // Ascending, each once, whatever the file says.
+    static Ids take_selection(const Json& value, const std::string& where) {
+        std::vector<std::uint32_t> ids = take_ids(value, where, MOST_IDS);
+        std::sort(ids.begin(), ids.end());
+        ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+        return std::make_shared<const std::vector<std::uint32_t>>(std::move(ids));
     }
     std::initializer_list<const char*>::const_iterator find_choice(const char* name, const std::string& given,
                                                                    std::initializer_list<const char*> names) const {

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "image/png.h"
 #include "inspect/colormap.h"
+#include "studio/edit_state.h"
 
 namespace photonloupe::studio {
 namespace {
@@ -116,6 +117,45 @@ Ids Workspace::find_source(const std::string& source) {
     std::vector<std::uint32_t> ids = loupe->ids;
     std::sort(ids.begin(), ids.end());
     return std::make_shared<const std::vector<std::uint32_t>>(std::move(ids));
+}
+
+void Workspace::take_photons(std::shared_ptr<const Scene> scene, std::shared_ptr<Photons> photons) {
+    results.scene = std::move(scene);
+    results.photons = std::move(photons);
+    results.relaxed.reset();
+    results.steps.clear();
+    done.erase("relax");
+    ++results.photons_version;
+    drop_caches();
+    drop_unknown_ids();
+    if (!state.view.camera.is_set)
+        if (const std::optional<Bounds> box = find_photon_box(*results.photons, nullptr))
+            fit_box(state.view.camera, *box);
+}
+
+void Workspace::drop_unknown_ids() {
+    if (!results.photons)
+        return;
+    const std::uint64_t count = results.photons->map.count;
+    std::erase_if(state.loupe.pins, [&](std::uint32_t pin) { return pin >= count; });
+    const auto keep_known = [&](const Ids& ids) -> Ids {
+        if (!ids || ids->empty() || ids->back() < count)
+            return ids;
+        auto known = std::make_shared<std::vector<std::uint32_t>>(*ids);
+        std::erase_if(*known, [&](std::uint32_t id) { return id >= count; });
+        return known;
+    };
+    select(keep_known(state.selection));
+    for (auto& [name, ids] : state.named)
+        ids = keep_known(ids);
+}
+
+void Workspace::take_relaxed(std::shared_ptr<Photons> photons, std::vector<StepResult> steps, double beta) {
+    results.relaxed = std::move(photons);
+    results.steps = std::move(steps);
+    results.relax_beta = beta;
+    ++results.photons_version;
+    drop_caches();
 }
 
 void Workspace::drop_caches() {

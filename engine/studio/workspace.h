@@ -111,9 +111,16 @@ struct Workspace {
     // The photons a view plots: "loupe", "all" or "selection". Null with `all`.
     Ids find_source(const std::string& source);
 
-    void drop_caches(); // after photons changed
+    // What work has given. The trees that views ask for must have been built: the work may read them at the same time.
+    void take_photons(std::shared_ptr<const Scene> scene, std::shared_ptr<Photons> photons);
+    void take_relaxed(std::shared_ptr<Photons> photons, std::vector<StepResult> steps, double beta);
+
+    // Ids that the map does not have leave selections and pins: of sessions of another map.
+    void drop_unknown_ids();
 
 private:
+    void drop_caches(); // after photons changed
+
     struct ColumnKey {
         const Photons* photons;
         std::string name;

@@ -14,6 +14,7 @@ Examples
 from photonloupe import inspect
 from photonloupe._engine import version as __version__
 from photonloupe.blue_noise import BlueNoise, measure_blue_noise
+from photonloupe.camera import Camera
 from photonloupe.device import Device, devices
 from photonloupe.errors import (
     ArgumentError,
@@ -40,6 +41,7 @@ from photonloupe.trajectory import find_primal_trajectory
 __all__ = [
     "ArgumentError",
     "BlueNoise",
+    "Camera",
     "Cancelled",
     "Device",
     "DeviceError",

@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 from photonloupe import _engine, queries
+from photonloupe.camera import Camera, check_camera
 from photonloupe.checks import check_choice, check_count
 from photonloupe.device import Device, open_device
 from photonloupe.errors import ArgumentError
@@ -25,7 +26,7 @@ def render(
     scene: Scene,
     photons: PhotonMap | None = None,
     *,
-    camera: str | None = None,
+    camera: str | Camera | None = None,
     width: int = 512,
     height: int = 512,
     samples: int = 4,
@@ -45,7 +46,7 @@ def render(
     photons
         The map to gather from; only ``mode="direct"`` does without.
     camera
-        Its name; by default the scene's first, or one that fits the bounds if there is none.
+        Its name, or a `Camera` of your own; by default the scene's first, or one that fits the bounds if there is none.
     width, height
         In pixels; the camera's vertical angle is kept whatever the aspect.
     samples
@@ -99,7 +100,7 @@ def render(
 def _check_settings(
     scene: Scene,
     photons: PhotonMap | None,
-    camera: str | None,
+    camera: str | Camera | None,
     width: int,
     height: int,
     samples: int,
@@ -115,14 +116,10 @@ def _check_settings(
     check_choice("mode", mode, MODES)
     if photons is None and mode != "direct":
         raise ArgumentError(f'mode="{mode}" needs a photon map; trace_photons makes one')
-    names = [str(entry["name"]) for entry in scene.cameras]
-    if camera is not None and camera not in names:
-        there = f"there are {', '.join(names)}" if names else "the scene has none"
-        raise ArgumentError(f"there is no camera {camera!r}; {there}")
     if k is None:
         k = queries.choose_k(photons.settings if photons is not None else {})
     return {
-        "camera": camera or "",
+        "camera": check_camera(scene, camera),
         "width": check_count("width", width, 1, MAX_SIDE),
         "height": check_count("height", height, 1, MAX_SIDE),
         "samples": check_count("samples", samples, 1, MAX_SAMPLES),

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from photonloupe import _engine
+from photonloupe.camera import Camera, check_camera
 from photonloupe.checks import check_count
 from photonloupe.device import Device, open_device
 from photonloupe.errors import ArgumentError
@@ -82,7 +83,7 @@ class CellView:
 
 def surfaces(
     scene: Scene,
-    camera: str | None = None,
+    camera: str | Camera | None = None,
     width: int = 512,
     height: int = 512,
     *,
@@ -96,7 +97,7 @@ def surfaces(
     scene
         What `load_scene` returned.
     camera
-        Its name; by default the scene's first, or one that fits the bounds.
+        Its name, or a `Camera`; by default the scene's first, or one that fits the bounds.
     width, height
         In pixels.
     device
@@ -134,7 +135,7 @@ def surfaces(
 def voronoi(
     photons: PhotonMap,
     scene: Scene | None = None,
-    camera: str | None = None,
+    camera: str | Camera | None = None,
     width: int = 512,
     height: int = 512,
     *,
@@ -192,7 +193,7 @@ def voronoi(
 def kd_tree(
     photons: PhotonMap,
     scene: Scene | None = None,
-    camera: str | None = None,
+    camera: str | Camera | None = None,
     width: int = 512,
     height: int = 512,
     *,
@@ -250,15 +251,11 @@ def _choose_scene(photons: PhotonMap, scene: Scene | None) -> Scene:
     return scene
 
 
-def _check_view(scene: Scene, camera: str | None, width: int, height: int) -> dict[str, Any]:
+def _check_view(scene: Scene, camera: str | Camera | None, width: int, height: int) -> dict[str, Any]:
     if not isinstance(scene, Scene):
         raise ArgumentError(f"scene must come from load_scene, not {scene!r}")
-    names = [str(entry["name"]) for entry in scene.cameras]
-    if camera is not None and camera not in names:
-        there = f"there are {', '.join(names)}" if names else "the scene has none"
-        raise ArgumentError(f"there is no camera {camera!r}; {there}")
     return {
-        "camera": camera or "",
+        "camera": check_camera(scene, camera),
         "width": check_count("width", width, 1, MAX_SIDE),
         "height": check_count("height", height, 1, MAX_SIDE),
     }

@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Files the studio opens, saves and watches."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import photonloupe as pl
+from photonloupe import _engine
+from photonloupe.atomic import write_bytes
+from photonloupe.errors import ArgumentError, PhotonLoupeError
+from photonloupe.studio.stages import Stages, describe_error
+
+if TYPE_CHECKING:
+    from photonloupe.studio.worker import Worker
+
+SCENES = (".gltf", ".glb")
+SCRIPT = ".photon"
+MAP = ".zarr"
+SESSION = ".loupe"
+IMAGES = (".exr", ".png")
+_DEFAULT_SESSION = "session.loupe"
+_LARGEST_SCRIPT = 1 << 20
+
+
+class Requests:
+    """Serves what the interface asks for beside its work, and notices files that changed."""
+
+    def __init__(self, native: _engine.Studio, stages: Stages) -> None:
+        self._native = native
+        self._stages = stages
+        self._session = ""
+        self._stamps: dict[str, float] = {}
+
+    def serve(self, worker: Worker) -> bool:
+        """Serve all that waits; True: something was."""
+        waiting = self._native.take_requests()
+        for request in waiting:
+            verb, _, argument = request.partition(" ")
+            try:
+                self._serve(verb, argument.strip(), worker)
+            except (PhotonLoupeError, OSError, ValueError) as error:
+                self._native.say(describe_error(error), True)
+        return bool(waiting)
+
+    def _serve(self, verb: str, argument: str, worker: Worker) -> None:
+        if verb == "cancel":
+            worker.stop()
+        elif verb == "open":
+            self.open_file(argument)
+        elif verb == "save_script":
+            self._save_script(argument)
+        elif verb == "save_session":
+            self.save_session(argument or self._session or _DEFAULT_SESSION)
+        elif verb == "store_reference":
+            self._store_reference()
+
+    def open_file(self, path: str) -> None:
+        """Open a scene, map, script, session or reference image, by its suffix."""
+        if not path:
+            raise ArgumentError("name a file to open")
+        suffix = Path(path).suffix.lower()
+        if suffix in SCENES:
+            self.open_scene(path, None)
+        elif suffix == SCRIPT:
+            self.open_script(Path(path), runs=False)
+        elif suffix == SESSION:
+            self._native.load_session(path)
+            self._session = path
+        elif suffix in IMAGES:
+            self._change("reference", {"image": {"reference": str(Path(path).absolute())}})
+        elif suffix == MAP or Path(path).is_dir():
+            self._change("open map", {"trace": {"map": str(Path(path).absolute()), "scene": ""}})
+        else:
+            kinds = ", ".join((*SCENES, SCRIPT, MAP, SESSION, *IMAGES))
+            raise ArgumentError(f"{path} is none of the files the studio opens: {kinds}")
+
+    def open_scene(self, scene: pl.Scene | str | os.PathLike[str], photons: int | None) -> None:
+        """Open a scene and trace it."""
+        if isinstance(scene, pl.Scene):
+            self._stages.scene = scene
+            path = str(scene.path)
+        else:
+            path = str(Path(scene).absolute())
+            # What is wrong with it is said before the old one goes.
+            self._stages.scene = pl.load_scene(path)
+        trace: dict[str, Any] = {"scene": str(self._stages.scene.path), "map": ""}
+        if photons is not None:
+            trace["photons"] = photons
+        self._change("open scene", {"trace": trace, "view": {"camera": {"is_set": False}}})
+        self._watch(path)
+
+    def open_script(self, script: str | os.PathLike[str] | pl.Script, *, runs: bool) -> None:
+        """Take a script into the editor, and run it."""
+        path = ""
+        if isinstance(script, pl.Script):
+            text = script.text
+        elif isinstance(script, os.PathLike) or (script.endswith(SCRIPT) and "\n" not in script):
+            path = str(Path(script).absolute())
+            text = _read_script(Path(path))
+            self._watch(path)
+        else:
+            text = script
+        change: dict[str, Any] = {"path": path, "text": text, "values": {}}
+        if runs:
+            pl.compile_script(pl.Script(text.encode("utf-8", "surrogatepass"), path or "script")).require()
+            change["ran"] = text
+        self._change("open script", {"script": change})
+
+    def save_session(self, path: str) -> None:
+        """Write the session and remember where."""
+        self._native.save_session(path)
+        self._session = path
+        self._native.say(f"saved {path}", False)
+
+    def write_svg(self, name: str, path: str | os.PathLike[str], size: tuple[int, int]) -> None:
+        """Write the parallel coordinates as they are chosen as an SVG file."""
+        if name != "Parallel coordinates":
+            raise ArgumentError(f"only parallel coordinates are written as SVG; export {name} as .png")
+        state = json.loads(self._native.state())["parallel"]
+        photons = self._stages.relaxed or self._stages.photons
+        if photons is None or not state["axes"]:
+            raise ArgumentError("there is nothing to plot yet; open a scene and draw a frame")
+        axes = [
+            pl.inspect.Axis(
+                axis["name"],
+                low=None if axis["low"] == axis["high"] else axis["low"],
+                high=None if axis["low"] == axis["high"] else axis["high"],
+                closed=axis["is_closed"],
+                periods=axis["periods"],
+                flipped=axis["is_flipped"],
+                brush=[tuple(brush) for brush in axis["brushes"]],
+            )
+            for axis in state["axes"]
+        ]
+        ids = self._native.loupe_ids() if state["source"] == "loupe" else None
+        plot = pl.inspect.parallel_coordinates(photons, axes, ids, size, tension=state["tension"])
+        plot.save_svg(path)
+
+    def watch_files(self) -> None:
+        """Open files again that changed on the disk; what is wrong with one leaves the last good state."""
+        state: dict[str, Any] | None = None
+        for path, stamp in list(self._stamps.items()):
+            now = _find_stamp(path)
+            if now in (stamp, 0.0):
+                continue
+            self._stamps[path] = now
+            state = state or json.loads(self._native.state())
+            try:
+                if path == state["script"]["path"]:
+                    self.open_script(Path(path), runs=True)
+                elif path == state["trace"]["scene"]:
+                    self.open_scene(path, None)
+            except (PhotonLoupeError, OSError) as error:
+                self._native.say(f"changed on the disk: {describe_error(error)}", True)
+
+    def _watch(self, path: str) -> None:
+        self._stamps[path] = _find_stamp(path)
+
+    def _change(self, name: str, parts: dict[str, dict[str, Any]]) -> None:
+        """Change some fields of the state, as one command."""
+        state = json.loads(self._native.state())
+        for part, fields in parts.items():
+            _merge(state[part], fields)
+        self._native.set_state(name, json.dumps(state))
+
+    def _save_script(self, path: str) -> None:
+        state = json.loads(self._native.state())
+        path = path or state["script"]["path"]
+        if not path:
+            raise ArgumentError("name a file to save the script to")
+        if Path(path).suffix != SCRIPT:
+            raise ArgumentError(f"{path}: scripts are {SCRIPT} files")
+        write_bytes(Path(path), state["script"]["text"].encode("utf-8"))
+        self._change("save script", {"script": {"path": str(Path(path).absolute())}})
+        self._watch(str(Path(path).absolute()))
+        self._native.say(f"saved {path}", False)
+
+    def _store_reference(self) -> None:
+        if self._stages.image is None:
+            raise ArgumentError("there is no picture to store yet; it is being rendered")
+        path = Path("reference.exr").absolute()
+        self._stages.image.save(path)
+        self._change("store reference", {"image": {"reference": str(path)}})
+
+
+def _merge(target: dict[str, Any], fields: dict[str, Any]) -> None:
+    for name, value in fields.items():
+        if isinstance(value, dict) and isinstance(target.get(name), dict) and value:
+            _merge(target[name], value)
+        else:
+            target[name] = value
+
+
+def _read_script(path: Path) -> str:
+    if path.stat().st_size > _LARGEST_SCRIPT:
+        raise ArgumentError(f"{path} is larger than any script")
+    return path.read_text(encoding="utf-8", errors="replace")
+
+
+def _find_stamp(path: str) -> float:
+    try:
+        return Path(path).stat().st_mtime
+    except OSError:
+        return 0.0

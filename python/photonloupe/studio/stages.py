@@ -1,0 +1,274 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The studio's work: each stage by the public calls, so that what is shown is what Python gives."""
+
+from __future__ import annotations
+
+import json
+import os
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import photonloupe as pl
+from photonloupe import _engine
+from photonloupe.columns import PATH_NAMES
+from photonloupe.device import Device
+from photonloupe.errors import ArgumentError, PhotonLoupeError
+from photonloupe.studio.spread import measure_spread
+
+Progress = Callable[[str, float], bool]
+
+# Pixels of rendered views, as the engine's python_script.h has them.
+RENDER_SIZE = (640, 480)
+_MILLISECONDS = 1000.0
+
+
+class Stages:
+    """Scene, photons, relaxation and images of a studio; one thread uses it.
+
+    Photons that the interface shows are never changed: a script runs over the other of two copies.
+    """
+
+    def __init__(self, device: Device, native: _engine.Studio) -> None:
+        self._device = device
+        self._native = native
+        self.scene: pl.Scene | None = None
+        self.traced: pl.PhotonMap | None = None
+        self.photons: pl.PhotonMap | None = None  # with what the script gave them
+        self._spare: pl.PhotonMap | None = None
+        self.relaxed: pl.PhotonMap | None = None
+        self.image: pl.Image | None = None
+        self._relaxation: pl.Relaxation | None = None
+        self._relaxation_key = ""
+        self._rows: list[tuple[float, float, float, float]] = []
+        self._milliseconds: dict[str, float] = {}
+
+    def run(self, kind: str, settings: dict[str, Any], progress: Progress) -> None:
+        """Do one job and hand its result to the interface."""
+        start = time.perf_counter()
+        stages: dict[str, Callable[[dict[str, Any], Progress], None]] = {
+            "trace": self._trace,
+            "map": self._load_map,
+            "script": self._run_script,
+            "relax": self._relax,
+            "isotropy": self._measure_isotropy,
+            "render": self._render,
+            "reference": self._compare,
+        }
+        stages[kind](settings, progress)
+        self._milliseconds[kind] = _MILLISECONDS * (time.perf_counter() - start)
+        self._native.deliver_times(self._milliseconds)
+
+    def _trace(self, settings: dict[str, Any], progress: Progress) -> None:
+        path = settings["scene"]
+        if self.scene is None or str(self.scene.path) != path or _has_changed(self.scene):
+            self.scene = pl.load_scene(path)
+        photons = pl.trace_photons(
+            self.scene,
+            settings["photons"],
+            seed=settings["seed"],
+            emission=settings["emission"],
+            store=settings["store"],
+            device=self._device,
+            progress=progress,
+        )
+        self._take_photons(photons)
+
+    def _load_map(self, settings: dict[str, Any], progress: Progress) -> None:
+        photons = pl.load_photons(settings["map"], device=self._device)
+        try:
+            self.scene = photons.find_surface()
+        except PhotonLoupeError as error:
+            self.scene = None
+            self._native.say(f"without its scene: {error}", False)
+        self._take_photons(photons)
+
+    def _take_photons(self, photons: pl.PhotonMap) -> None:
+        if len(photons) == 0:
+            raise ArgumentError("there are no photons to look at; trace more, or another store")
+        try:
+            photons.upload_columns(PATH_NAMES)
+        except PhotonLoupeError as error:
+            photons.upload()
+            self._native.say(f"without paths: {error}", False)
+        self.traced = photons
+        self._spare = None
+        self._show(photons)
+
+    def _show(self, photons: pl.PhotonMap) -> None:
+        """Let the interface show photons, their trees built."""
+        native = photons.upload()
+        _engine.build_view_trees(self._device._native, native)
+        self.photons = photons
+        self.relaxed = None
+        self._relaxation = None
+        self._relaxation_key = ""
+        self._native.deliver_photons(None if self.scene is None else self.scene._native, native)
+
+    def _take_spare(self) -> pl.PhotonMap:
+        """Return a copy of the traced photons that is not shown."""
+        assert self.traced is not None
+        if self._spare is None:
+            self._spare = self.traced.select(np.arange(len(self.traced)))
+            if "path_offsets" in self._spare.recorded:
+                self._spare.upload_columns(PATH_NAMES)
+        return self._spare
+
+    def _run_script(self, settings: dict[str, Any], progress: Progress) -> None:
+        if self.traced is None:
+            raise PhotonLoupeError("there are no photons to run the script over; open a scene")
+        if not settings["text"]:
+            if self.photons is not self.traced:
+                self._load_again()
+            return
+        script = _make_script(settings)
+        values = {name: value for name, value in settings["values"].items() if name in _list_exposed(script)}
+        target = self._take_spare()
+        start = time.perf_counter()
+        run = target.run_script(script, values=values, progress=progress)
+        milliseconds = _MILLISECONDS * (time.perf_counter() - start)
+        # What was shown until now is free for the next run, unless it is the map as it was traced.
+        shown = self.photons
+        self._show(target)
+        self._spare = None if shown is self.traced else shown
+        self._native.deliver_script(
+            [_describe_histogram(name, histogram) for name, histogram in run.histograms.items()],
+            list(run.prints),
+            _describe_report(run),
+            milliseconds,
+        )
+
+    def _load_again(self) -> None:
+        assert self.traced is not None
+        self._spare = None
+        self._show(self.traced)
+
+    def _relax(self, settings: dict[str, Any], progress: Progress) -> None:
+        assert self.photons is not None
+        made = settings.pop("made")
+        key = settings.pop("settings_key")
+        if self._relaxation is None or key != self._relaxation_key or self._relaxation.step_count > made:
+            self._relaxation = pl.Relaxation(self.photons, progress=progress, **settings)
+            self._relaxation_key = key
+            self._rows = []
+        total = max(made, 1)
+        while self._relaxation.step_count < made:
+            row = self._relaxation.step(progress=progress)
+            if not progress("relax", self._relaxation.step_count / total):
+                break
+            low_frequency, noise = measure_spread(self._relaxation.photons)
+            self._rows.append((row["mean_displacement"], row["mean_move"], low_frequency, noise))
+        self.relaxed = self._relaxation.photons
+        native = self.relaxed.upload()
+        if "path_offsets" in self.relaxed.recorded:
+            native = self.relaxed.upload_columns(PATH_NAMES)
+        _engine.build_view_trees(self._device._native, native)
+        self._native.deliver_relaxed(native, self._rows, float(self._relaxation.settings["beta"]))
+
+    def _measure_isotropy(self, settings: dict[str, Any], progress: Progress) -> None:
+        assert self.photons is not None
+        beta = pl.optimal_beta(self.photons, progress=progress)
+        self._native.say(f"β = {float(beta):.4g} from t_β = {beta.t_beta:.4g}", False)
+
+    def _find_shown(self, settings: dict[str, Any]) -> pl.PhotonMap:
+        assert self.photons is not None
+        return self.relaxed if settings["relaxed"] and self.relaxed is not None else self.photons
+
+    def _render(self, settings: dict[str, Any], progress: Progress) -> None:
+        if self.scene is None:
+            raise PhotonLoupeError("rendering needs the scene the photons were traced in; open it")
+        photons = self._find_shown(settings)
+        camera = settings["camera"]
+        looks = pl.Camera(camera["position"], camera["target"], camera["up"], camera["yfov"])
+        common: dict[str, Any] = {
+            "camera": looks,
+            "width": RENDER_SIZE[0],
+            "height": RENDER_SIZE[1],
+            "samples": settings["samples"],
+            "k": settings["k"],
+            "device": self._device,
+            "progress": progress,
+        }
+        self.image = pl.render(self.scene, photons, **common)
+        colors = None
+        if "colors" in photons.recorded:
+            colors = np.ascontiguousarray(pl.render(self.scene, photons, mode="false-color", **common))
+        self._native.deliver_images(np.ascontiguousarray(self.image), colors)
+
+    def _compare(self, settings: dict[str, Any], progress: Progress) -> None:
+        if self.image is None:
+            return
+        reference = pl.load_image(settings["path"])
+        try:
+            difference = pl.compare_images(self.image, reference)
+        except PhotonLoupeError:
+            self._native.deliver_comparison(np.ascontiguousarray(reference), None, 0.0, 0.0, 0.0)
+            raise
+        error = pl.inspect.error_map(self.image, reference).image
+        self._native.deliver_comparison(
+            np.ascontiguousarray(reference),
+            np.ascontiguousarray(error),
+            difference.rmse,
+            difference.relmse,
+            difference.flip,
+        )
+
+
+def _has_changed(scene: pl.Scene) -> bool:
+    """Tell whether a scene's file is newer than what was read of it."""
+    try:
+        return pl.load_scene(scene.path).hash != scene.hash
+    except PhotonLoupeError:
+        return False  # the last good state stays; loading it anew says what is wrong
+
+
+def _make_script(settings: dict[str, Any]) -> pl.Script:
+    name = Path(settings["path"]).name or "script"
+    return pl.Script(settings["text"].encode("utf-8", "surrogatepass"), name)
+
+
+def _list_exposed(script: pl.Script) -> set[str]:
+    return {variable.name for variable in script.exposed}
+
+
+def _describe_histogram(name: str, histogram: pl.Histogram) -> dict[str, Any]:
+    return {
+        "name": name,
+        "low": float(histogram.edges[0]),
+        "high": float(histogram.edges[-1]),
+        "counts": [float(count) for count in histogram.counts],
+    }
+
+
+def _describe_report(run: pl.ScriptRun) -> list[str]:
+    lines = [
+        f"line {row['line']}: {row['kind']} loop" + (f", stopped: {row['stopped']}" if row["stopped"] else "")
+        for row in run.report["passes"]
+    ]
+    for row in run.report["faults"]:
+        first = "" if row["first_photon"] is None else f" first at photon {row['first_photon']}"
+        lines.append(f"line {row['line']}: {row['what']}, {row['count']} photons{first}")
+    for name, row in run.report["parameters"].items():
+        for what in ("unset", "out_of_bounds", "non_finite"):
+            if row[what]["count"]:
+                lines.append(f"{name}: {row[what]['count']} photons {what.replace('_', ' ')}")
+    if run.report["stopped"]:
+        lines.append(f"stopped: {run.report['stopped']}")
+    return lines
+
+
+def read_job(settings: str) -> dict[str, Any]:
+    """Turn a job's JSON into keywords."""
+    return dict(json.loads(settings))
+
+
+def describe_error(error: BaseException) -> str:
+    """Say in one line what went wrong."""
+    if isinstance(error, pl.Cancelled):
+        return "stopped on request; what was there stays"
+    if isinstance(error, OSError):
+        return f"{error.filename or 'a file'}: {error.strerror or os.strerror(error.errno or 0)}"
+    return " ".join(str(error).split()) or type(error).__name__
