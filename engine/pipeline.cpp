@@ -177,6 +177,15 @@ script::ScriptRun Workbench::run_script(Photons& photons, const script::Compiled
     }
 }
 
+std::shared_ptr<Photons> Workbench::take_relaxed(const Photons& source, RelaxedColumns columns) {
+    auto photons = std::make_shared<Photons>();
+    photons->map = std::move(columns.map);
+    photons->report = source.report;
+    photons->store = source.store;
+    photons->state = std::make_shared<const RelaxedState>(std::move(columns.state));
+    return photons;
+}
+
 Relaxation Workbench::start_relaxation(Photons& photons, const Scene* scene, const RelaxSettings& settings,
                                        const Progress& progress) {
     const KdTree& tree = find_tree(photons, progress);
@@ -217,8 +226,8 @@ Image Workbench::render_voronoi(const Scene& scene, Photons& photons, const Rend
                                 const Progress& progress) {
     const shared::CameraFrame camera =
         frame_camera(scene, find_camera(scene, settings.camera), settings.width, settings.height);
-    const inspect::SurfaceView view =
-        inspect::see_surfaces(m_device, scene, *find_buffers(scene), camera, settings.width, settings.height, progress);
+    const inspect::SurfaceView view = inspect::see_surfaces(m_device, scene, *find_buffers(scene), camera,
+                                                            {settings.width, settings.height}, progress);
     const inspect::CellImage cells = inspect::find_voronoi_cells(m_device, photons.map, find_tree(photons, progress),
                                                                  view, {settings.estimate.flatness}, progress);
     return inspect::paint_cells(cells, inspect::list_encoded_colors(photons.map));

@@ -83,6 +83,9 @@ public:
     Relaxation start_relaxation(Photons& photons, const Scene* scene, const RelaxSettings& settings,
                                 const Progress& progress);
 
+    // The photons where a relaxation put them, with what it measured; without parameters, colors and paths.
+    static std::shared_ptr<Photons> take_relaxed(const Photons& source, RelaxedColumns columns);
+
     gpu::Buffer estimate_irradiance(Photons& photons, std::span<const glm::vec4> points,
                                     std::span<const glm::vec4> normals, const EstimateSettings& settings,
                                     const Progress& progress);

@@ -86,10 +86,11 @@ def surfaces(
     width: int = 512,
     height: int = 512,
     *,
+    through_glass: bool = False,
     device: Device | int | str | None = None,
     progress: ProgressLike = None,
 ) -> SurfaceView:
-    """Find the first surface that each pixel's center sees; nothing is followed through mirrors and glass.
+    """Find the first surface that each pixel's center sees; nothing is followed through mirrors.
 
     Parameters
     ----------
@@ -99,6 +100,8 @@ def surfaces(
         Its name; by default the scene's first, or one that fits the bounds.
     width, height
         In pixels.
+    through_glass
+        Whether surfaces that mostly transmit are passed, straight on.
     device
         A `Device`, its name or index; default the best there is.
     progress
@@ -120,7 +123,7 @@ def surfaces(
     >>> pl.inspect.surfaces(scene, "top", 8, 8).points.shape
     (8, 8, 3)
     """
-    settings = _check_view(scene, camera, width, height)
+    settings = _check_view(scene, camera, width, height, through_glass)
     with follow_progress(progress) as callback:
         packed, normals, objects = _engine.see_surfaces(open_device(device)._native, scene._native, settings, callback)
     shape = (settings["height"], settings["width"])
@@ -140,6 +143,7 @@ def voronoi(
     *,
     color: str = "encoding",
     same_surface: bool = True,
+    through_glass: bool = False,
     progress: ProgressLike = None,
 ) -> CellView:
     """Find the Voronoi cells of the photons on the surfaces that a camera sees ([SJL15] figure 6).
@@ -150,7 +154,7 @@ def voronoi(
         The map.
     scene
         By default the one the photons lie in.
-    camera, width, height
+    camera, width, height, through_glass
         As in `surfaces`.
     color
         ``"encoding"``: the colors a script gave, else one of its own for each photon; or the name of a column.
@@ -179,7 +183,7 @@ def voronoi(
     <Image 64 × 64, linear>
     """
     scene = _choose_scene(photons, scene)
-    settings = _check_view(scene, camera, width, height)
+    settings = _check_view(scene, camera, width, height, through_glass)
     settings["flatness"] = SURFACE_FLATNESS if same_surface else 0.0
     settings["color"] = color
     native = upload_for(photons, () if color == "encoding" else (color,))
@@ -197,6 +201,7 @@ def kd_tree(
     height: int = 512,
     *,
     depth: int | None = None,
+    through_glass: bool = False,
     progress: ProgressLike = None,
 ) -> CellView:
     """Find which node of the kd-tree each surface point falls in, by the splits above it.
@@ -207,7 +212,7 @@ def kd_tree(
         The map.
     scene
         By default the one the photons lie in.
-    camera, width, height
+    camera, width, height, through_glass
         As in `surfaces`.
     depth
         Level of the nodes, 0 the root; by default, and below them, the leaves.
@@ -232,7 +237,7 @@ def kd_tree(
     8
     """
     scene = _choose_scene(photons, scene)
-    settings = _check_view(scene, camera, width, height)
+    settings = _check_view(scene, camera, width, height, through_glass)
     settings["depth"] = None if depth is None else check_count("depth", depth, 0, MAX_DEPTH)
     opened = open_device(photons.device)
     with follow_progress(progress) as callback:
@@ -250,7 +255,7 @@ def _choose_scene(photons: PhotonMap, scene: Scene | None) -> Scene:
     return scene
 
 
-def _check_view(scene: Scene, camera: str | None, width: int, height: int) -> dict[str, Any]:
+def _check_view(scene: Scene, camera: str | None, width: int, height: int, through_glass: bool) -> dict[str, Any]:
     if not isinstance(scene, Scene):
         raise ArgumentError(f"scene must come from load_scene, not {scene!r}")
     names = [str(entry["name"]) for entry in scene.cameras]
@@ -261,6 +266,7 @@ def _check_view(scene: Scene, camera: str | None, width: int, height: int) -> di
         "camera": camera or "",
         "width": check_count("width", width, 1, MAX_SIDE),
         "height": check_count("height", height, 1, MAX_SIDE),
+        "through_glass": bool(through_glass),
     }
 
 
