@@ -159,9 +159,9 @@ TEST(Voronoi, is_nobodys_where_all_photons_face_another_way) {
 }
 
 TEST(Voronoi, of_coincident_photons_is_the_first_ones_however_long_the_walk) {
-    const Photons photons = make_floor_photons(std::vector<glm::vec3>(40'000, glm::vec3(0.25f, 0, 0.5f)));
-    const CellImage image = find_cells(photons, see(make_floor(), look_down(), 16), 0.1f);
-    EXPECT_EQ(std::count(image.ids.begin(), image.ids.end(), 0), 16 * 16);
+    const Photons photons = make_floor_photons(std::vector<glm::vec3>(150'000, glm::vec3(0.25f, 0, 0.5f)));
+    const CellImage image = find_cells(photons, see(make_floor(), look_down(), 8), 0.1f);
+    EXPECT_EQ(std::count(image.ids.begin(), image.ids.end(), 0), 8 * 8);
 }
 
 TEST(Voronoi, does_not_depend_on_the_maps_origin) {
@@ -193,20 +193,29 @@ TEST(Cells, of_an_empty_map_are_nobodys) {
 }
 
 TEST(KdCells, are_those_that_the_splits_lead_to) {
-    const Photons photons = make_floor_photons(draw_points(5000, 7));
-    const KdTree tree = build_tree(get_device(), photons.map);
-    const TreeArrays arrays = read_tree(tree);
     const SurfaceView view = see(make_floor());
     const auto points = view.points.read<glm::vec4>(view.pixel_count());
+    // Photons where pixels meet the floor: splits then pass through the points of others, which belong to their right.
+    std::vector<glm::vec3> positions;
+    for (std::size_t pixel = 0; pixel < points.size(); pixel += 2)
+        positions.emplace_back(points[pixel]);
+    const Photons photons = make_floor_photons(positions);
+    const KdTree tree = build_tree(get_device(), photons.map);
+    const TreeArrays arrays = read_tree(tree);
+    std::size_t on_splits = 0;
     for (const std::uint32_t depth : {0u, 1u, 4u, 30u}) {
         const CellImage image = find_kd_cells(get_device(), photons.map, tree, view, depth);
-        for (std::size_t pixel = 0; pixel < points.size(); pixel += 7) {
+        for (std::size_t pixel = 0; pixel < points.size(); ++pixel) {
             std::size_t row = 0;
-            for (std::uint32_t level = 0; level < depth && arrays.split_axis[row] >= 0; ++level)
-                row = 2 * row + 1 + (points[pixel][arrays.split_axis[row]] >= arrays.split_value[row]);
+            for (std::uint32_t level = 0; level < depth && arrays.split_axis[row] >= 0; ++level) {
+                const float coordinate = points[pixel][arrays.split_axis[row]];
+                on_splits += coordinate == arrays.split_value[row];
+                row = 2 * row + 1 + (coordinate >= arrays.split_value[row]);
+            }
             ASSERT_EQ(image.ids[pixel], static_cast<int>(row)) << "depth " << depth << ", pixel " << pixel;
         }
     }
+    EXPECT_GT(on_splits, 100u);
 }
 
 TEST(KdCells, boxes_are_those_of_the_tree) {
