@@ -27,18 +27,20 @@ nb::dict describe_cells(CellImage cells, Image painted) {
 // What of a view Python says; read before the GIL is given up.
 struct ViewAsked {
     CameraChoice camera;
-    std::uint32_t width = 0, height = 0;
+    SurfaceViewSettings settings;
 };
 
 ViewAsked read_view(const nb::dict& given) {
-    return {read_camera(given["camera"]), nb::cast<std::uint32_t>(given["width"]),
-            nb::cast<std::uint32_t>(given["height"])};
+    return {read_camera(given["camera"]),
+            {nb::cast<std::uint32_t>(given["width"]), nb::cast<std::uint32_t>(given["height"]),
+             nb::cast<bool>(given["through_glass"])}};
 }
 
 SurfaceView see(OpenDevice& open, const Scene& scene, const ViewAsked& asked, const Progress& progress) {
+    const Camera camera = find_camera(scene, asked.camera);
     return see_surfaces(open.device, scene, *open.workbench.find_buffers(scene),
-                        frame_camera(scene, find_camera(scene, asked.camera), asked.width, asked.height), asked.width,
-                        asked.height, progress);
+                        frame_camera(scene, camera, asked.settings.width, asked.settings.height), asked.settings,
+                        progress);
 }
 
 nb::tuple describe_surfaces(OpenDevice& open, const Scene& scene, const nb::dict& given, nb::object progress) {
@@ -164,14 +166,16 @@ nb::dict map_errors(const Pixels& a, const Pixels& b, bool is_relative, float fu
 void bind_inspect_images(nb::module_& module) {
     module.def("see_surfaces", &describe_surfaces, nb::arg("device"), nb::arg("scene"), nb::arg("settings"),
                nb::arg("progress").none() = nb::none(),
-               "(points and depth (p, 4), normals (p, 3), objects (p,)) by pixel; settings: camera, width, height.");
+               "(points and depth (p, 4), normals (p, 3), objects (p,)) by pixel; settings: camera, width, height, "
+               "through_glass.");
     module.def("find_voronoi_cells", &find_voronoi, nb::arg("device"), nb::arg("photons"), nb::arg("scene"),
                nb::arg("settings"), nb::arg("progress").none() = nb::none(),
-               "ids, depth, borders (h, w), pixels (h, w, 3); settings: camera, width, height, flatness, color.");
-    module.def(
-        "find_kd_cells", &find_kd, nb::arg("device"), nb::arg("photons"), nb::arg("scene"), nb::arg("settings"),
-        nb::arg("progress").none() = nb::none(),
-        "The same with nodes for ids, and boxes (node, photons, corners); settings: camera, width, height, depth.");
+               "ids, depth, borders (h, w), pixels (h, w, 3); settings: camera, width, height, through_glass, "
+               "flatness, color.");
+    module.def("find_kd_cells", &find_kd, nb::arg("device"), nb::arg("photons"), nb::arg("scene"), nb::arg("settings"),
+               nb::arg("progress").none() = nb::none(),
+               "The same with nodes for ids, and boxes (node, photons, corners); settings: camera, width, height, "
+               "through_glass, depth.");
     module.def("plot_scatter", &plot, nb::arg("device"), nb::arg("photons"), nb::arg("settings"),
                nb::arg("selection").none(),
                "A scatter plot; settings: x, y, width, height, polar, color, x_range, y_range, dense_from.");

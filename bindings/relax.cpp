@@ -88,22 +88,20 @@ nb::dict step(OpenRelaxation& open, nb::object progress) {
 // The map with its new places, and the state columns by name; those that were not measured are left out.
 nb::tuple read(OpenRelaxation& open) {
     RelaxedColumns columns = open.relaxation.read();
-    auto photons = std::make_shared<Photons>();
-    photons->map = std::move(columns.map);
-    photons->report = open.photons->report;
-    photons->store = open.photons->store;
-    const auto state = std::make_shared<const RelaxedState>(std::move(columns.state));
-    photons->state = state;
+    const bool has_constraint = columns.has_constraint;
+    const std::uint64_t off_surface_count = columns.off_surface_count;
+    const std::shared_ptr<Photons> photons = Workbench::take_relaxed(*open.photons, std::move(columns));
+    const std::shared_ptr<const RelaxedState> state = photons->state;
     nb::dict arrays;
     arrays["drift"] = share_array(state, state->drift, {3});
     arrays["pressure"] = share_array(state, state->pressure, {});
-    if (columns.has_constraint) {
+    if (has_constraint) {
         arrays["constraint_basis"] = share_array(state, state->basis, {2, 3});
         arrays["constraint_weights"] = share_array(state, state->weights, {2});
         arrays["gradient"] = share_array(state, state->gradient, {3});
         arrays["one_sidedness"] = share_array(state, state->one_sidedness, {});
     }
-    return nb::make_tuple(photons, arrays, columns.off_surface_count);
+    return nb::make_tuple(photons, arrays, off_surface_count);
 }
 
 nb::tuple measure(OpenDevice& open, Matrix<const double, 2> points, std::array<double, 2> radius, nb::object progress) {

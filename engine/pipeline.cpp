@@ -177,6 +177,15 @@ script::ScriptRun Workbench::run_script(Photons& photons, const script::Compiled
     }
 }
 
+std::shared_ptr<Photons> Workbench::take_relaxed(const Photons& source, RelaxedColumns columns) {
+    auto photons = std::make_shared<Photons>();
+    photons->map = std::move(columns.map);
+    photons->report = source.report;
+    photons->store = source.store;
+    photons->state = std::make_shared<const RelaxedState>(std::move(columns.state));
+    return photons;
+}
+
 Relaxation Workbench::start_relaxation(Photons& photons, const Scene* scene, const RelaxSettings& settings,
                                        const Progress& progress) {
     const KdTree& tree = find_tree(photons, progress);
@@ -221,16 +230,12 @@ void Workbench::build_view_trees(Photons& photons, const Progress& progress) {
     find_tree_layers(photons, progress);
 }
 
-inspect::SurfaceView Workbench::see_surfaces(const Scene& scene, const shared::CameraFrame& camera, std::uint32_t width,
-                                             std::uint32_t height, const Progress& progress) {
-    return inspect::see_surfaces(m_device, scene, *find_buffers(scene), camera, width, height, progress);
-}
-
 Image Workbench::render_voronoi(const Scene& scene, Photons& photons, const RenderSettings& settings,
                                 const Progress& progress) {
     const shared::CameraFrame camera =
         frame_camera(scene, find_camera(scene, settings.camera), settings.width, settings.height);
-    const inspect::SurfaceView view = see_surfaces(scene, camera, settings.width, settings.height, progress);
+    const inspect::SurfaceView view = inspect::see_surfaces(m_device, scene, *find_buffers(scene), camera,
+                                                            {settings.width, settings.height}, progress);
     const inspect::CellImage cells = inspect::find_voronoi_cells(m_device, photons.map, find_tree(photons, progress),
                                                                  view, {settings.estimate.flatness}, progress);
     return inspect::paint_cells(cells, inspect::list_encoded_colors(photons.map));

@@ -9,7 +9,6 @@
 #include <span>
 
 #include "estimate/render_image.h"
-#include "inspect/surface_view.h"
 #include "photons/layered_queries.h"
 #include "relax/isotropy.h"
 #include "relax/relaxation.h"
@@ -84,6 +83,9 @@ public:
     Relaxation start_relaxation(Photons& photons, const Scene* scene, const RelaxSettings& settings,
                                 const Progress& progress);
 
+    // The photons where a relaxation put them, with what it measured; without parameters, colors and paths.
+    static std::shared_ptr<Photons> take_relaxed(const Photons& source, RelaxedColumns columns);
+
     gpu::Buffer estimate_irradiance(Photons& photons, std::span<const glm::vec4> points,
                                     std::span<const glm::vec4> normals, const EstimateSettings& settings,
                                     const Progress& progress);
@@ -96,10 +98,6 @@ public:
 
     // All trees that queries of views ask for, so that several threads may then look at the photons.
     void build_view_trees(Photons& photons, const Progress& progress = {});
-
-    // What a camera sees of the scene, for looking at photons on it.
-    inspect::SurfaceView see_surfaces(const Scene& scene, const shared::CameraFrame& camera, std::uint32_t width,
-                                      std::uint32_t height, const Progress& progress = {});
 
     gpu::Device& device() { return m_device; }
 

@@ -11,13 +11,13 @@
 namespace photonloupe::inspect {
 
 SurfaceView see_surfaces(gpu::Device& device, const Scene& scene, const SceneBuffers& buffers,
-                         const shared::CameraFrame& camera, std::uint32_t width, std::uint32_t height,
+                         const shared::CameraFrame& camera, const SurfaceViewSettings& settings,
                          const Progress& progress) {
-    check_image_size(width, height, "surfaces seen");
-    SurfaceView view{width, height, camera, scene.origin, {}, {}};
+    check_image_size(settings.width, settings.height, "surfaces seen");
+    SurfaceView view{settings.width, settings.height, camera, scene.origin, {}, {}};
     view.points = gpu::Buffer(device, view.pixel_count() * sizeof(glm::vec4), "surfaces seen");
     view.normals = gpu::Buffer(device, view.pixel_count() * sizeof(glm::vec4), "surfaces seen");
-    shared::SurfaceSettings push{camera, 0, 0, width, height};
+    shared::SurfaceSettings push{camera, 0, 0, settings.width, settings.height, settings.sees_through ? 1u : 0u};
     gpu::run_in_chunks(device, "see surfaces", view.pixel_count(), 4096, progress,
                        [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
                            push.first = static_cast<std::uint32_t>(first);

@@ -27,9 +27,15 @@ struct SurfacePoint {
     float depth = 0; // metres along the view's axis
 };
 
-// Through mirrors and glass nothing is followed: the first surface counts. Throws Error for an image size out of range.
+struct SurfaceViewSettings {
+    std::uint32_t width = 512, height = 512;
+    bool sees_through = false; // what mostly transmits is passed, straight on
+};
+
+// Nothing is followed through mirrors, and nothing bent: the first surface counts, or the first that is not glass.
+// Throws Error for an image size out of range.
 SurfaceView see_surfaces(gpu::Device& device, const Scene& scene, const SceneBuffers& buffers,
-                         const shared::CameraFrame& camera, std::uint32_t width, std::uint32_t height,
+                         const shared::CameraFrame& camera, const SurfaceViewSettings& settings,
                          const Progress& progress = {});
 
 // None: the pixel sees no surface, or lies outside.

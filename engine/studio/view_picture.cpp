@@ -97,7 +97,9 @@ void ViewPicture::see(Workspace& workspace, std::uint32_t width, std::uint32_t h
     const std::string key = scene->hash + write_pose(pose) + " " + std::to_string(width) + "x" + std::to_string(height);
     if (m_surface && m_surface_key == key)
         return;
-    m_surface = workspace.bench.see_surfaces(*scene, frame_view(pose, scene->origin, width, height), width, height);
+    // Photons are seen through glass: it is what they came through.
+    m_surface = inspect::see_surfaces(workspace.device, *scene, *workspace.bench.find_buffers(*scene),
+                                      frame_view(pose, scene->origin, width, height), {width, height, true});
     m_surface_key = key;
 }
 

@@ -257,17 +257,17 @@ def read_path_lines(photons: PhotonMap, ids: Sequence[int]) -> list:
 
 def see_surfaces(device: Device, scene: Scene, settings: dict, progress: object | None = None) -> tuple:
     """
-    (points and depth (p, 4), normals (p, 3), objects (p,)) by pixel; settings: camera, width, height.
+    (points and depth (p, 4), normals (p, 3), objects (p,)) by pixel; settings: camera, width, height, through_glass.
     """
 
 def find_voronoi_cells(device: Device, photons: PhotonMap, scene: Scene, settings: dict, progress: object | None = None) -> dict:
     """
-    ids, depth, borders (h, w), pixels (h, w, 3); settings: camera, width, height, flatness, color.
+    ids, depth, borders (h, w), pixels (h, w, 3); settings: camera, width, height, through_glass, flatness, color.
     """
 
 def find_kd_cells(device: Device, photons: PhotonMap, scene: Scene, settings: dict, progress: object | None = None) -> dict:
     """
-    The same with nodes for ids, and boxes (node, photons, corners); settings: camera, width, height, depth.
+    The same with nodes for ids, and boxes (node, photons, corners); settings: camera, width, height, through_glass, depth.
     """
 
 def plot_scatter(device: Device, photons: PhotonMap, settings: dict, selection: Sequence[int] | None) -> dict:

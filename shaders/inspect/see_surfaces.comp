@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The first surface that each pixel's center sees. Input: scene. Outputs: surface_points (xyz, w depth along the view's
+// The first surface that each pixel's center sees, or the first behind glass. Input: scene. Outputs: surface_points (xyz, w depth along the view's
 // axis, INFINITY: nothing), surface_normals (xyz shading normal towards the eye, w object).
 #include "shared/prelude.glsl"
 #include "shared/inspect.h"
@@ -9,6 +9,21 @@
 
 layout(push_constant) uniform Push { SurfaceSettings settings; };
 
+// Glass that a ray passes at most.
+const uint LARGEST_PASSED = 16u;
+// Share of light transmitted from which on a surface is looked through.
+const float SEEN_THROUGH = 0.5;
+
+// Goes on behind glass, without bending.
+Hit look_on(Ray ray, Hit hit) {
+    for (uint i = 0u; i < LARGEST_PASSED && hit.t < INFINITY; ++i) {
+        Surface surface = load_surface(hit);
+        if (weigh_dielectric(surface.material) < SEEN_THROUGH) return hit;
+        hit = intersect_scene(leave_surface(surface, ray.direction), INFINITY, false);
+    }
+    return hit;
+}
+
 void main() {
     if (gl_GlobalInvocationID.x >= settings.count) return;
     uint pixel = settings.first + gl_GlobalInvocationID.x;
@@ -16,11 +31,13 @@ void main() {
     float y = 1.0 - 2.0 * (float(pixel / settings.width) + 0.5) / float(settings.height);
     vec3 forward = settings.camera.forward.xyz;
     vec3 direction = normalize_safely(forward + x * settings.camera.right.xyz + y * settings.camera.up.xyz);
-    Hit hit = intersect_scene(Ray(settings.camera.position.xyz, direction), INFINITY, false);
+    Ray ray = Ray(settings.camera.position.xyz, direction);
+    Hit hit = intersect_scene(ray, INFINITY, false);
+    if (settings.sees_through != 0u) hit = look_on(ray, hit);
     surface_points[pixel] = vec4(0.0, 0.0, 0.0, INFINITY);
     surface_normals[pixel] = vec4(0.0, 0.0, 0.0, uintBitsToFloat(NO_CELL));
     if (!(hit.t < INFINITY)) return;
     Surface surface = load_surface(hit);
-    surface_points[pixel] = vec4(surface.position, hit.t * dot(direction, forward));
+    surface_points[pixel] = vec4(surface.position, dot(surface.position - ray.origin, forward));
     surface_normals[pixel] = vec4(face_arrival(surface, direction), uintBitsToFloat(surface.object));
 }

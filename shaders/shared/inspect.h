@@ -13,6 +13,10 @@ struct SurfaceSettings {
     uint count;
     uint width;
     uint height;
+    uint sees_through; // surfaces that mostly transmit are passed, straight on
+    uint pad0;
+    uint pad1;
+    uint pad2;
 };
 
 struct CellSettings {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Surfaces seen, Voronoi and kd-tree cells: against closed forms and brute force.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -18,8 +19,9 @@ constexpr std::uint32_t SIDE = 96;
 // Of two squared distances of about 1 m², added in different orders.
 constexpr double ROUNDING = 1e-5;
 
-SurfaceView see(const Scene& scene, const shared::CameraFrame& camera = look_down(), std::uint32_t side = SIDE) {
-    return see_surfaces(get_device(), scene, upload_scene(get_device(), scene), camera, side, side);
+SurfaceView see(const Scene& scene, const shared::CameraFrame& camera = look_down(), std::uint32_t side = SIDE,
+                bool sees_through = false) {
+    return see_surfaces(get_device(), scene, upload_scene(get_device(), scene), camera, {side, side, sees_through});
 }
 
 CellImage find_cells(const Photons& photons, const SurfaceView& view, float flatness) {
@@ -60,6 +62,48 @@ TEST(SurfaceView, says_where_nothing_is_seen) {
     up.forward = {0, 1, 0, 0};
     EXPECT_FALSE(read_surface(see(make_floor(), up), SIDE / 2, SIDE / 2));
 }
+
+// A pane of glass half a metre above the floor, over its half towards -x.
+Scene make_covered_floor() {
+    Scene scene = make_scene({{{{-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}}},
+                              {{{-1, 0, -1}, {1, 0, 1}, {1, 0, -1}}},
+                              {{{-1, 0.5f, -1}, {-1, 0.5f, 1}, {0, 0.5f, 1}}},
+                              {{{-1, 0.5f, -1}, {0, 0.5f, 1}, {0, 0.5f, -1}}}});
+    scene.materials.resize(2);
+    scene.materials[1].emission_transmission.w = 1.0f;
+    for (shared::Triangle& triangle : scene.triangles)
+        if (triangle.v0_object.y > 0)
+            triangle.v1_material.w = std::bit_cast<float>(1u);
+    return scene;
+}
+
+TEST(SurfaceView, looks_through_glass_when_asked_to) {
+    const Scene scene = make_covered_floor();
+    const SurfaceView onto = see(scene), through = see(scene, look_down(), SIDE, true);
+    const std::uint32_t under_glass = SIDE / 4;
+    EXPECT_NEAR(read_surface(onto, under_glass, SIDE / 2)->position[1], 0.5, 1e-6);
+    EXPECT_NEAR(read_surface(through, under_glass, SIDE / 2)->position[1], 0.0, 1e-6);
+    EXPECT_NEAR(read_surface(through, under_glass, SIDE / 2)->depth, 2.0, 1e-6);
+    EXPECT_NEAR(read_surface(onto, SIDE - 1, SIDE / 2)->depth, 2.0, 1e-6);
+}
+
+class ScaledVoronoi : public ::testing::TestWithParam<float> {};
+
+TEST_P(ScaledVoronoi, has_the_same_cells) {
+    const auto find = [](float scale) {
+        std::vector<glm::vec3> positions = draw_points(2000, 9);
+        for (glm::vec3& position : positions)
+            position = {position.x * scale, 0, position.z * scale};
+        const Scene scene = make_scene({{{{-scale, 0, -scale}, {-scale, 0, scale}, {scale, 0, scale}}},
+                                        {{{-scale, 0, -scale}, {scale, 0, scale}, {scale, 0, -scale}}}});
+        shared::CameraFrame camera = look_down();
+        camera.position.y *= scale;
+        return find_cells(make_floor_photons(positions), see(scene, camera), 0.1f);
+    };
+    EXPECT_EQ(find(GetParam()).ids, find(1.0f).ids);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scales, ScaledVoronoi, ::testing::Values(0x1p-20f, 0x1p20f));
 
 TEST(Voronoi, cells_of_a_grid_are_its_squares) {
     constexpr int CELLS = 8;
@@ -115,9 +159,9 @@ TEST(Voronoi, is_nobodys_where_all_photons_face_another_way) {
 }
 
 TEST(Voronoi, of_coincident_photons_is_the_first_ones_however_long_the_walk) {
-    const Photons photons = make_floor_photons(std::vector<glm::vec3>(40'000, glm::vec3(0.25f, 0, 0.5f)));
-    const CellImage image = find_cells(photons, see(make_floor(), look_down(), 16), 0.1f);
-    EXPECT_EQ(std::count(image.ids.begin(), image.ids.end(), 0), 16 * 16);
+    const Photons photons = make_floor_photons(std::vector<glm::vec3>(150'000, glm::vec3(0.25f, 0, 0.5f)));
+    const CellImage image = find_cells(photons, see(make_floor(), look_down(), 8), 0.1f);
+    EXPECT_EQ(std::count(image.ids.begin(), image.ids.end(), 0), 8 * 8);
 }
 
 TEST(Voronoi, does_not_depend_on_the_maps_origin) {
@@ -149,20 +193,29 @@ TEST(Cells, of_an_empty_map_are_nobodys) {
 }
 
 TEST(KdCells, are_those_that_the_splits_lead_to) {
-    const Photons photons = make_floor_photons(draw_points(5000, 7));
-    const KdTree tree = build_tree(get_device(), photons.map);
-    const TreeArrays arrays = read_tree(tree);
     const SurfaceView view = see(make_floor());
     const auto points = view.points.read<glm::vec4>(view.pixel_count());
+    // Photons where pixels meet the floor: splits then pass through the points of others, which belong to their right.
+    std::vector<glm::vec3> positions;
+    for (std::size_t pixel = 0; pixel < points.size(); pixel += 2)
+        positions.emplace_back(points[pixel]);
+    const Photons photons = make_floor_photons(positions);
+    const KdTree tree = build_tree(get_device(), photons.map);
+    const TreeArrays arrays = read_tree(tree);
+    std::size_t on_splits = 0;
     for (const std::uint32_t depth : {0u, 1u, 4u, 30u}) {
         const CellImage image = find_kd_cells(get_device(), photons.map, tree, view, depth);
-        for (std::size_t pixel = 0; pixel < points.size(); pixel += 7) {
+        for (std::size_t pixel = 0; pixel < points.size(); ++pixel) {
             std::size_t row = 0;
-            for (std::uint32_t level = 0; level < depth && arrays.split_axis[row] >= 0; ++level)
-                row = 2 * row + 1 + (points[pixel][arrays.split_axis[row]] >= arrays.split_value[row]);
+            for (std::uint32_t level = 0; level < depth && arrays.split_axis[row] >= 0; ++level) {
+                const float coordinate = points[pixel][arrays.split_axis[row]];
+                on_splits += coordinate == arrays.split_value[row];
+                row = 2 * row + 1 + (coordinate >= arrays.split_value[row]);
+            }
             ASSERT_EQ(image.ids[pixel], static_cast<int>(row)) << "depth " << depth << ", pixel " << pixel;
         }
     }
+    EXPECT_GT(on_splits, 100u);
 }
 
 TEST(KdCells, boxes_are_those_of_the_tree) {

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "inspect/error_map.h"
 #include "inspect/histogram.h"
+#include "inspect/lasso.h"
 #include "inspect/photon_colors.h"
 #include "inspect/scatter.h"
 #include "inspect/spread.h"
@@ -136,6 +137,20 @@ TEST(Scatter, of_many_points_is_as_opaque_as_they_are_dense) {
 TEST(Scatter, refuses_columns_of_different_maps) {
     const std::vector<glm::vec3> colors(2);
     EXPECT_THROW(plot_scatter(make_column({1, 2}, 0, 1), make_column({1}, 0, 1), colors, nullptr, {}), Error);
+}
+
+TEST(Lasso, takes_what_lies_within_a_concave_polygon) {
+    ScatterSettings settings;
+    settings.width = settings.height = 104;
+    settings.point_radius = 2;
+    const Column x = make_column({10, 50, 90, 50, NO_VALUE}, 0, 100), y = make_column({50, 90, 50, 20, 50}, 0, 100);
+    const ScatterFrame frame(x, y, settings);
+    // A V that is open at the top: the point between its legs is out.
+    const std::vector<glm::dvec2> letter{frame.to_pixel(0, 100),  frame.to_pixel(20, 100),  frame.to_pixel(50, 30),
+                                         frame.to_pixel(80, 100), frame.to_pixel(100, 100), frame.to_pixel(95, 45),
+                                         frame.to_pixel(50, 0),   frame.to_pixel(5, 45)};
+    EXPECT_EQ(find_in_lasso(x, y, frame, letter), (Selection{0, 2, 3}));
+    EXPECT_TRUE(find_in_lasso(x, y, frame, {}).empty());
 }
 
 TEST(Spread, of_an_ellipse_has_its_axes) {

@@ -49,6 +49,16 @@ def test_voronoi_cells_are_those_of_brute_force(scene: str, camera: str | None, 
     assert len(np.unique(cells.ids)) > 20
 
 
+def test_cells_under_glass_are_seen_when_asked_for() -> None:
+    photons = trace("slab")
+    scene = photons.find_surface()
+    onto, through = (pl.inspect.surfaces(scene, None, **SIZE, through_glass=flag) for flag in (False, True))
+    assert np.nanmax(onto.points[..., 1]) > np.nanmax(through.points[..., 1])
+    cells = pl.inspect.voronoi(photons, scene, None, **SIZE, through_glass=True)
+    assert find_worst(photons, cells, through, 0.1) <= ROUNDING
+    assert len(np.unique(cells.ids)) > 20
+
+
 def test_borders_are_where_the_next_pixel_is_anothers() -> None:
     cells = pl.inspect.voronoi(trace("ring"), None, "top", **SIZE)
     expected = np.zeros_like(cells.borders)

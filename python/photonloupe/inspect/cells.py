@@ -87,10 +87,11 @@ def surfaces(
     width: int = 512,
     height: int = 512,
     *,
+    through_glass: bool = False,
     device: Device | int | str | None = None,
     progress: ProgressLike = None,
 ) -> SurfaceView:
-    """Find the first surface that each pixel's center sees; nothing is followed through mirrors and glass.
+    """Find the first surface that each pixel's center sees; nothing is followed through mirrors.
 
     Parameters
     ----------
@@ -100,6 +101,8 @@ def surfaces(
         Its name, or a `Camera`; by default the scene's first, or one that fits the bounds.
     width, height
         In pixels.
+    through_glass
+        Whether surfaces that mostly transmit are passed, straight on.
     device
         A `Device`, its name or index; default the best there is.
     progress
@@ -121,7 +124,7 @@ def surfaces(
     >>> pl.inspect.surfaces(scene, "top", 8, 8).points.shape
     (8, 8, 3)
     """
-    settings = _check_view(scene, camera, width, height)
+    settings = _check_view(scene, camera, width, height, through_glass)
     with follow_progress(progress) as callback:
         packed, normals, objects = _engine.see_surfaces(open_device(device)._native, scene._native, settings, callback)
     shape = (settings["height"], settings["width"])
@@ -141,6 +144,7 @@ def voronoi(
     *,
     color: str = "encoding",
     same_surface: bool = True,
+    through_glass: bool = False,
     progress: ProgressLike = None,
 ) -> CellView:
     """Find the Voronoi cells of the photons on the surfaces that a camera sees ([SJL15] figure 6).
@@ -151,7 +155,7 @@ def voronoi(
         The map.
     scene
         By default the one the photons lie in.
-    camera, width, height
+    camera, width, height, through_glass
         As in `surfaces`.
     color
         ``"encoding"``: the colors a script gave, else one of its own for each photon; or the name of a column.
@@ -180,7 +184,7 @@ def voronoi(
     <Image 64 × 64, linear>
     """
     scene = _choose_scene(photons, scene)
-    settings = _check_view(scene, camera, width, height)
+    settings = _check_view(scene, camera, width, height, through_glass)
     settings["flatness"] = SURFACE_FLATNESS if same_surface else 0.0
     settings["color"] = color
     native = upload_for(photons, () if color == "encoding" else (color,))
@@ -198,6 +202,7 @@ def kd_tree(
     height: int = 512,
     *,
     depth: int | None = None,
+    through_glass: bool = False,
     progress: ProgressLike = None,
 ) -> CellView:
     """Find which node of the kd-tree each surface point falls in, by the splits above it.
@@ -208,7 +213,7 @@ def kd_tree(
         The map.
     scene
         By default the one the photons lie in.
-    camera, width, height
+    camera, width, height, through_glass
         As in `surfaces`.
     depth
         Level of the nodes, 0 the root; by default, and below them, the leaves.
@@ -233,7 +238,7 @@ def kd_tree(
     8
     """
     scene = _choose_scene(photons, scene)
-    settings = _check_view(scene, camera, width, height)
+    settings = _check_view(scene, camera, width, height, through_glass)
     settings["depth"] = None if depth is None else check_count("depth", depth, 0, MAX_DEPTH)
     opened = open_device(photons.device)
     with follow_progress(progress) as callback:
@@ -251,13 +256,14 @@ def _choose_scene(photons: PhotonMap, scene: Scene | None) -> Scene:
     return scene
 
 
-def _check_view(scene: Scene, camera: str | Camera | None, width: int, height: int) -> dict[str, Any]:
+def _check_view(scene: Scene, camera: str | Camera | None, width: int, height: int, through_glass: bool) -> dict[str, Any]:
     if not isinstance(scene, Scene):
         raise ArgumentError(f"scene must come from load_scene, not {scene!r}")
     return {
         "camera": check_camera(scene, camera),
         "width": check_count("width", width, 1, MAX_SIDE),
         "height": check_count("height", height, 1, MAX_SIDE),
+        "through_glass": bool(through_glass),
     }
 
 
