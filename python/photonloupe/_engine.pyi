@@ -222,3 +222,35 @@ def write_png(path: str, pixels: Annotated[NDArray[numpy.float32], dict(shape=(N
 def encode_png(pixels: Annotated[NDArray[numpy.float32], dict(shape=(None, None, 3), order='C', writable=False)], exposure: float, attributes: Mapping[str, str]) -> bytes: ...
 
 def read_png(path: str) -> tuple: ...
+
+class ParallelFigure:
+    def read_pixels(self) -> NDArray[numpy.uint8]:
+        """RGBA (height · width, 4), sRGB."""
+
+    @property
+    def is_density(self) -> bool: ...
+
+    def read_selected(self) -> tuple:
+        """
+        Of the photons in focus: ids (s,), points (s · axes, 2), tangents (s · gaps, 2), photons with a break.
+        """
+
+    def read_context(self) -> tuple:
+        """The same of the others."""
+
+    def read_densities(self) -> list:
+        """
+        Per axis: shares, heights, whether bars, bandwidth, what height 1 stands for.
+        """
+
+    def read_marks(self) -> list:
+        """
+        Per axis: (center x, center y, rx, ry), text above and below, outlines of density and brushes, ticks.
+        """
+
+    def write_svg(self, path: str) -> None: ...
+
+def make_parallel_figure(device: Device, axes: list, focus: Annotated[NDArray[numpy.uint32], dict(shape=(None,), order='C', device='cpu', writable=False)], color: object | None, colors: Annotated[NDArray[numpy.float32], dict(shape=(None, 3), order='C', writable=False)], settings: dict) -> ParallelFigure:
+    """
+    Axes: name, label, values, low, high, period, is_discrete, flipped, closed, periods, brush each. Settings: size, tension, density, most_curves.
+    """

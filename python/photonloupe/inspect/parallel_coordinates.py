@@ -150,7 +150,8 @@ def parallel_coordinates(
     tension
         1 for smooth curves, 0 for straight lines, or between.
     brushes
-        Intervals by axis name, added to those of the axes; they narrow the focus: any interval of an axis, but all axes.
+        Intervals by axis name, added to those of the axes. They narrow the focus to photons that are in some interval
+        of every brushed axis.
     density
         False leaves the densities out.
     most_curves
@@ -264,8 +265,8 @@ def _gather_plot(
     tangents = np.empty((count, width - 1, 2), np.float32)
     broken = 0
     for ids, its_points, its_tangents, its_broken in (figure.read_context(), figure.read_selected()):
-        points[ids] = its_points.reshape(-1, width, 2)
-        tangents[ids] = its_tangents.reshape(-1, width - 1, 2)
+        points[ids] = its_points.reshape(len(ids), width, 2)
+        tangents[ids] = its_tangents.reshape(len(ids), width - 1, 2)
         broken += its_broken
     labels = [column.label for column in columns]
     pixels = draw_marks(np.asarray(figure.read_pixels()).reshape(size[1], size[0], 4), figure.read_marks(), labels)
