@@ -6,6 +6,8 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from inspect import isfunction
+from types import ModuleType
 
 import pytest
 
@@ -56,10 +58,11 @@ def test_public_name_is_there(name: str) -> None:
     assert hasattr(pl, name)
 
 
-@pytest.mark.parametrize("name", [name for name in pl.__all__ if name[0].islower()])
-def test_public_function_is_documented(name: str) -> None:
-    text = getattr(pl, name).__doc__
-    assert "Returns" in text
+@pytest.mark.parametrize("module", [pl, pl.inspect])
+def test_public_functions_are_documented(module: ModuleType) -> None:
+    functions = [getattr(module, name) for name in module.__all__ if isfunction(getattr(module, name))]
+    assert functions
+    assert [function.__name__ for function in functions if "Returns" not in (function.__doc__ or "")] == []
 
 
 @pytest.mark.parametrize("error", [pl.SceneError, pl.ScriptError, pl.DeviceError, pl.ArgumentError, pl.FileFormatError])

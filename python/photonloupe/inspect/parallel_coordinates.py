@@ -16,7 +16,6 @@ from photonloupe.checks import check_count, check_number, check_rows
 from photonloupe.device import Device, open_device
 from photonloupe.errors import ArgumentError, FileFormatError, PhotonLoupeError
 from photonloupe.image import Image, decode_srgb, encode_srgb
-from photonloupe.inspect.figure_marks import draw_marks
 from photonloupe.inspect.parallel_axes import Axis, ShownColumn, complete_axis, describe_axis, find_column
 
 if TYPE_CHECKING:
@@ -260,6 +259,8 @@ _UNSET = 0.45
 def _gather_plot(
     figure: _engine.ParallelFigure, axes: tuple[Axis, ...], columns: list[ShownColumn], size: list[int]
 ) -> ParallelCoordinates:
+    from photonloupe.inspect.figure_marks import draw_marks  # noqa: PLC0415 - Pillow at first use
+
     count, width = len(columns[0].values), len(axes)
     points = np.empty((count, width, 2), np.float32)
     tangents = np.empty((count, width - 1, 2), np.float32)
