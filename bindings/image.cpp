@@ -2,6 +2,8 @@
 // Binds engine/image: EXR and PNG files with their provenance.
 #include "binding.h"
 
+#include "core/atomic_file.h"
+
 #include "image/exr.h"
 #include "image/png.h"
 
@@ -19,6 +21,12 @@ Image take_image(const Pixels& pixels, Attributes attributes) {
 } // namespace
 
 void bind_image(nb::module_& module) {
+    module.def(
+        "write_file",
+        [](const std::string& path, nb::bytes content) {
+            write_file_atomically(path, {reinterpret_cast<const unsigned char*>(content.c_str()), content.size()});
+        },
+        nb::arg("path"), nb::arg("content"), "Write a file so that a killed program leaves the old one or the new one.");
     module.def(
         "write_exr",
         [](const std::string& path, const Pixels& pixels, Attributes attributes) {

@@ -92,22 +92,24 @@ nb::list read_densities(const OpenFigure& open) {
     return rows;
 }
 
-// Per axis: (center x, center y, rx, ry), what stands above and below, outlines of density and of brushes.
+// Per axis: (center x, center y, rx, ry), what stands above and below, outlines of density and of brushes, ticks.
 nb::list read_marks(const OpenFigure& open) {
     constexpr FigureStyle style;
     nb::list rows;
     for (std::size_t i = 0; i < open.figure.axes.size(); ++i) {
         const Axis& axis = open.figure.axes[i];
         const AxisPlace& place = open.figure.layout.places[i];
-        nb::list areas, brushes;
+        nb::list areas, brushes, ticks;
         if (!open.figure.densities.empty())
             for (const auto& outline : outline_density(axis, place, open.figure.densities[i], style.density_width))
                 areas.append(copy_vectors(outline));
         for (const Interval& brush : axis.brushes)
             brushes.append(copy_vectors(outline_brush(axis, place, brush, style.brush_width)));
+        for (const auto& [from, to] : list_ticks(axis, place))
+            ticks.append(nb::make_tuple(from.x, from.y, to.x, to.y));
         const LimitLabels labels = find_limit_labels(axis);
         rows.append(nb::make_tuple(nb::make_tuple(place.center.x, place.center.y, place.rx, place.ry), labels.above,
-                                   labels.below, areas, brushes));
+                                   labels.below, areas, brushes, ticks));
     }
     return rows;
 }
@@ -129,7 +131,7 @@ void bind_parallel_coordinates(nb::module_& module) {
         .def("read_densities", &read_densities,
              "Per axis: shares, heights, whether bars, bandwidth, what height 1 stands for.")
         .def("read_marks", &read_marks,
-             "Per axis: (center x, center y, rx, ry), text above and below, outlines of density and brushes.")
+             "Per axis: (center x, center y, rx, ry), text above and below, outlines of density and brushes, ticks.")
         .def(
             "write_svg",
             [](const OpenFigure& open, const std::string& path) {

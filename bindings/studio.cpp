@@ -118,6 +118,7 @@ void bind_input(nb::class_<Studio>& type) {
         .def("press_mouse", &Studio::press_mouse)
         .def("turn_wheel", &Studio::turn_wheel)
         .def("press_key", &Studio::press_key)
+        .def("hold_key", &Studio::hold_key)
         .def("type_text", &Studio::type_text)
         .def("drop_file", &Studio::drop_file)
         .def("command", &Studio::run_command)

@@ -164,8 +164,9 @@ std::vector<std::vector<glm::vec2>> outline_density(const Axis& axis, const Axis
     std::vector<glm::vec2> outline;
     for (std::size_t i = 0; i < density.shares.size(); ++i)
         outline.push_back(step_out(density.shares[i], density.heights[i]));
-    for (std::size_t i = density.shares.size(); i-- > 0;)
-        outline.push_back(step_out(density.shares[i], 0));
+    const std::size_t step = axis.is_closed ? 1 : density.shares.size() - 1; // the line needs its ends only
+    for (std::size_t i = density.shares.size(); i > 0; i -= std::min(i, step))
+        outline.push_back(step_out(density.shares[i - 1], 0));
     outlines.push_back(std::move(outline));
     return outlines;
 }

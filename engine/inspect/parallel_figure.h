@@ -62,6 +62,9 @@ struct LimitLabels {
 
 LimitLabels find_limit_labels(const Axis& axis);
 
+// Short lines across an axis at its ends and quarters, on the side without density.
+std::vector<std::array<glm::vec2, 2>> list_ticks(const Axis& axis, const AxisPlace& place);
+
 // A file that stands alone: curves as paths, or the image of their density, with axes, limits, densities and brushes.
 std::string format_parallel_svg(const ParallelFigure& figure, std::span<const Column> columns);
 // Throws Error with the path and the system's reason; the old file stays then.

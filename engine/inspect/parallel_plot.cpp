@@ -16,7 +16,7 @@ constexpr std::uint32_t COLOR_COUNT = 256;
 constexpr std::uint32_t BLEND_GRANULE = 256, LARGEST_BLEND = 512;
 constexpr std::uint32_t COUNT_GRANULE = 4096;
 // On processors one part after the other; a graphics processor needs the invocations of many.
-constexpr CountSplit SOFTWARE_SPLIT{24576, 1}, HARDWARE_SPLIT{2048, 32};
+constexpr CountSplit SOFTWARE_SPLIT{16384, 1}, HARDWARE_SPLIT{2048, 32};
 // Few invocations, each long: small workgroups spread them over all cores.
 constexpr std::uint32_t WORKGROUP = 16;
 

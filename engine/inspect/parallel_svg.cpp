@@ -120,11 +120,8 @@ void add_axis_line(std::string& svg, const Axis& axis, const AxisPlace& place) {
     else
         svg += format("<line x1=\"%g\" y1=\"%g\" x2=\"%g\" y2=\"%g\"/>\n", place.center.x, place.center.y - place.ry,
                       place.center.x, place.center.y + place.ry);
-    for (int i = 0; i < TICK_COUNT; ++i) {
-        const glm::vec2 point = find_point(axis, place, double(i) / (TICK_COUNT - 1));
-        const glm::vec2 end = point - TICK_LENGTH * find_outward(place, point);
-        svg += format("<line x1=\"%.2f\" y1=\"%.2f\" x2=\"%.2f\" y2=\"%.2f\"/>\n", point.x, point.y, end.x, end.y);
-    }
+    for (const auto& [from, to] : list_ticks(axis, place))
+        svg += format("<line x1=\"%.2f\" y1=\"%.2f\" x2=\"%.2f\" y2=\"%.2f\"/>\n", from.x, from.y, to.x, to.y);
 }
 
 void add_labels(std::string& svg, const Axis& axis, const AxisPlace& place, const Column& column) {
@@ -162,6 +159,15 @@ LimitLabels find_limit_labels(const Axis& axis) {
         return axis.is_flipped ? LimitLabels{low, high} : LimitLabels{high, low};
     const std::string turns = axis.periods > 1 ? format("%u turns", axis.periods) : std::string();
     return {turns, low + " = " + high};
+}
+
+std::vector<std::array<glm::vec2, 2>> list_ticks(const Axis& axis, const AxisPlace& place) {
+    std::vector<std::array<glm::vec2, 2>> ticks;
+    for (int i = 0; i < TICK_COUNT; ++i) {
+        const glm::vec2 point = find_point(axis, place, double(i) / (TICK_COUNT - 1));
+        ticks.push_back({point, point - TICK_LENGTH * find_outward(place, point)});
+    }
+    return ticks;
 }
 
 std::string format_parallel_svg(const ParallelFigure& figure, std::span<const Column> columns) {

@@ -62,6 +62,10 @@ public:
         m_target[name] = values;
     }
     void path(const char* name, std::string& value) {
+        if (value.empty() || m_folder.empty()) {
+            m_target[name] = value;
+            return;
+        }
         const std::filesystem::path relative = std::filesystem::path(value).lexically_relative(m_folder);
         const bool is_below = !relative.empty() && *relative.begin() != "..";
         m_target[name] = is_below ? relative.string() : value;
@@ -191,7 +195,7 @@ public:
         text(name, value, 4096);
         if (value.find('\0') != std::string::npos)
             refuse_field(place(name), "must not hold a zero byte");
-        if (!value.empty() && std::filesystem::path(value).is_relative())
+        if (!value.empty() && !m_folder.empty() && std::filesystem::path(value).is_relative())
             value = (m_folder / value).lexically_normal().string();
     }
     void ids(const char* name, Ids& value) {

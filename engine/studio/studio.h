@@ -64,6 +64,7 @@ public:
     void press_mouse(int button, bool is_down);
     void turn_wheel(float steps);
     void press_key(const std::string& chord);
+    void hold_key(const std::string& name, bool is_down);
     void type_text(const std::string& text);
     void drop_file(const std::string& path);
 

@@ -49,6 +49,11 @@ void Studio::press_key(const std::string& chord) {
             io.AddKeyEvent(modifier, false);
 }
 
+void Studio::hold_key(const std::string& name, bool is_down) {
+    const int parsed = parse_chord(name);
+    find_io(m_context).AddKeyEvent(static_cast<ImGuiKey>(parsed), is_down);
+}
+
 void Studio::type_text(const std::string& text) {
     ImGuiIO& io = find_io(m_context);
     std::string run;
@@ -78,8 +83,9 @@ std::optional<Job> Studio::take_job() {
         return std::nullopt;
     const Workspace& workspace = m_workspace;
     const Wanted wanted{workspace.wants_render, workspace.wants_isotropy};
-    m_running = plan_work(workspace.state, find_pose(workspace.state.view.camera), wanted, workspace.has_parameters(),
-                          workspace.results.photons_version, workspace.done);
+    const Holding holding{workspace.results.photons != nullptr, workspace.has_parameters(),
+                          workspace.results.photons_version};
+    m_running = plan_work(workspace.state, find_pose(workspace.state.view.camera), wanted, holding, workspace.done);
     m_stop = false;
     m_progress = 0;
     m_progress_stage = m_running ? m_running->kind : "";

@@ -203,7 +203,9 @@ void ViewPanel::take_mouse(Workspace& workspace, const ViewFrame& frame) {
             });
         return;
     }
-    const bool has_moved = io.MouseDelta.x != 0 || io.MouseDelta.y != 0;
+    const bool has_moved = io.MousePos.x != m_mouse_x || io.MousePos.y != m_mouse_y;
+    m_mouse_x = io.MousePos.x;
+    m_mouse_y = io.MousePos.y;
     if (is_over && has_moved && !is_active)
         move_under_cursor(workspace, frame, io.MousePos.x, io.MousePos.y);
     if (ImGui::IsItemDeactivated() && !m_is_dragging && ImGui::IsMouseReleased(0)) {

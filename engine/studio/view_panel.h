@@ -34,6 +34,7 @@ private:
     ViewPicture m_after{"view after"};
     bool m_is_dragging = false;
     bool m_drags_split = false;
+    float m_mouse_x = 0, m_mouse_y = 0; // where the loupe was moved last
 };
 
 } // namespace photonloupe::studio

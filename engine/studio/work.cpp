@@ -53,13 +53,15 @@ bool ask(std::optional<Job>& job, const DoneWork& done, const char* kind, const 
 } // namespace
 
 std::optional<Job> plan_work(const StudioState& state, const CameraPose& camera, const Wanted& wanted,
-                             bool has_parameters, std::uint64_t photons_version, const DoneWork& done) {
+                             const Holding& holding, const DoneWork& done) {
     std::optional<Job> job;
     const Settings trace = describe_trace(state.trace);
     const std::string trace_key = trace.dump();
     if (state.trace.scene.empty() && state.trace.map.empty())
         return job;
     if (ask(job, done, state.trace.map.empty() ? "trace" : "map", trace_key, trace))
+        return job;
+    if (!holding.photons)
         return job;
     // Without a script the photons are as they were traced.
     std::string script_key = trace_key;
@@ -71,15 +73,15 @@ std::optional<Job> plan_work(const StudioState& state, const CameraPose& camera,
     if (ask(job, done, "script", script_key, script))
         return job;
     if (state.relax.made > 0 || state.relax.is_measured) {
-        Settings relax = describe_relax(state.relax.used, has_parameters);
+        Settings relax = describe_relax(state.relax.used, holding.parameters);
         const std::string settings_key = script_key + relax.dump();
         relax["made"] = state.relax.made;
         relax["settings_key"] = settings_key;
         if (ask(job, done, "relax", settings_key + std::to_string(state.relax.made), relax))
             return job;
     }
-    const std::string version = std::to_string(photons_version);
-    if (wanted.isotropy && has_parameters && ask(job, done, "isotropy", script_key, Settings::object()))
+    const std::string version = std::to_string(holding.photons_version);
+    if (wanted.isotropy && holding.parameters && ask(job, done, "isotropy", script_key, Settings::object()))
         return job;
     if (wanted.image && !state.trace.scene.empty()) {
         Settings render{{"camera", describe_camera(camera)},

@@ -28,8 +28,15 @@ struct Wanted {
     bool isotropy = false; // of the parameters
 };
 
-// The first stage that is not up to date, or nothing. `has_parameters` tells what a script or map left.
+// What earlier work has left.
+struct Holding {
+    bool photons = false; // false though they were traced: that failed, and nothing can follow
+    bool parameters = false;
+    std::uint64_t photons_version = 0;
+};
+
+// The first stage that is not up to date, or nothing.
 std::optional<Job> plan_work(const StudioState& state, const CameraPose& camera, const Wanted& wanted,
-                             bool has_parameters, std::uint64_t photons_version, const DoneWork& done);
+                             const Holding& holding, const DoneWork& done);
 
 } // namespace photonloupe::studio

@@ -35,6 +35,7 @@ from photonloupe.relaxing import Relaxation
 from photonloupe.rendering import render
 from photonloupe.scene import Scene, load_scene
 from photonloupe.scripting import Diagnostic, ExposedVariable, Histogram, Script, ScriptRun, compile_script
+from photonloupe.studio import Studio
 from photonloupe.tracing import trace_photons
 from photonloupe.trajectory import find_primal_trajectory
 
@@ -62,6 +63,7 @@ __all__ = [
     "Script",
     "ScriptError",
     "ScriptRun",
+    "Studio",
     "__version__",
     "compare_images",
     "compile_script",

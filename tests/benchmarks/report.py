@@ -16,9 +16,9 @@ import photonloupe as pl
 
 COMMANDS = """\
     apt-get install libllvm19 libnanoflann-dev
-    ./photonloupe python -m pip install mitsuba numba pykdtree scikit-learn scipy taichi    # the extra `bench`
+    ./photonloupe python -m pip install matplotlib mitsuba numba pykdtree scikit-learn scipy taichi # the extra `bench`
     ./photonloupe python tests/benchmarks/run.py"""
-PACKAGES = ("scipy", "numba", "pykdtree", "taichi", "scikit-learn")
+PACKAGES = ("scipy", "numba", "pykdtree", "taichi", "scikit-learn", "matplotlib")
 HEAD = "| work | peer | peer's figure | ours | ratio ours/peer | gate | met |\n|---|---|---|---|---|---|---|"
 
 

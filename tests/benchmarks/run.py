@@ -12,6 +12,7 @@ import build_tree
 import caustic_error
 import estimate_irradiance
 import find_neighbors
+import parallel_coordinates
 import relax
 import run_scripts
 import start_up
@@ -28,6 +29,7 @@ SUBJECTS: dict[str, Callable[[], Subject]] = {
     "estimate_irradiance": estimate_irradiance.measure,
     "run_scripts": run_scripts.measure,
     "relax": relax.measure,
+    "parallel_coordinates": parallel_coordinates.measure,
     "caustic_error": caustic_error.measure,
     "start_up": start_up.measure,
 }

@@ -256,7 +256,9 @@ def _choose_scene(photons: PhotonMap, scene: Scene | None) -> Scene:
     return scene
 
 
-def _check_view(scene: Scene, camera: str | Camera | None, width: int, height: int, through_glass: bool) -> dict[str, Any]:
+def _check_view(
+    scene: Scene, camera: str | Camera | None, width: int, height: int, through_glass: bool
+) -> dict[str, Any]:
     if not isinstance(scene, Scene):
         raise ArgumentError(f"scene must come from load_scene, not {scene!r}")
     return {

@@ -19,19 +19,22 @@ DENSITY_OPACITY = 0.45
 BRUSH_OPACITY = 0.55
 FONT_SIZE = 12
 # Shapes are drawn this much larger and averaged down.
-_FINER = 4
+_FINER = 3
 
 
 def draw_marks(pixels: NDArray[np.uint8], marks: list[Any], labels: list[str]) -> NDArray[np.uint8]:
-    """Return (h, w, 3) of curves (h, w, 4) with everything else that a figure needs to stand alone."""
-    picture = Pillow.fromarray(np.ascontiguousarray(pixels[:, :, :3]))
+    """Return (h, w, 3) of opaque curves (h, w, 4) with everything else that a figure needs to stand alone."""
+    height, width = pixels.shape[:2]
+    picture = Pillow.frombuffer("RGBX", (width, height), pixels, "raw", "RGBX", 0, 1).convert("RGB")
     draw = ImageDraw.Draw(picture)
-    for (place, above, below, areas, brushes), label in zip(marks, labels, strict=True):
+    for (place, above, below, areas, brushes, ticks), label in zip(marks, labels, strict=True):
         for outline in areas:
             _draw_area(picture, np.asarray(outline), DENSITY_COLOR, DENSITY_OPACITY)
         for outline in brushes:
             _draw_area(picture, np.asarray(outline), BRUSH_COLOR, BRUSH_OPACITY)
         _draw_axis(picture, place)
+        for tick in ticks:
+            draw.line(tick, fill=AXIS_COLOR)
         x, y, _, ry = place
         for text, at in ((label, y - ry - 20), (above, y - ry - 5), (below, y + ry + 14)):
             draw.text((x, at), text, fill=AXIS_COLOR, font=_load_font(), anchor="ms")
@@ -64,6 +67,6 @@ def _draw_axis(picture: Pillow.Image, place: tuple[float, float, float, float]) 
     left, top = int(x - rx) - 1, int(y - ry) - 1
     size = (int(2 * rx) + 4, int(2 * ry) + 4)
     mask = Pillow.new("L", (size[0] * _FINER, size[1] * _FINER))
-    box = [(value - corner) * _FINER for value, corner in zip((x - rx, y - ry, x + rx, y + ry), (left, top) * 2)]
-    ImageDraw.Draw(mask).ellipse(box, outline=255, width=_FINER)
+    box = np.array([x - rx - left, y - ry - top, x + rx - left, y + ry - top]) * _FINER
+    ImageDraw.Draw(mask).ellipse(box.tolist(), outline=255, width=_FINER)
     picture.paste(ImageColor.getrgb(AXIS_COLOR), (left, top), mask.reduce(_FINER))

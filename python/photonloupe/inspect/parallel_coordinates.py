@@ -16,7 +16,6 @@ from photonloupe.checks import check_count, check_number, check_rows
 from photonloupe.device import Device, open_device
 from photonloupe.errors import ArgumentError, FileFormatError, PhotonLoupeError
 from photonloupe.image import Image, decode_srgb, encode_srgb
-from photonloupe.inspect.figure_marks import draw_marks
 from photonloupe.inspect.parallel_axes import Axis, ShownColumn, complete_axis, describe_axis, find_column
 
 if TYPE_CHECKING:
@@ -150,7 +149,8 @@ def parallel_coordinates(
     tension
         1 for smooth curves, 0 for straight lines, or between.
     brushes
-        Intervals by axis name, added to those of the axes; they narrow the focus: any interval of an axis, but all axes.
+        Intervals by axis name, added to those of the axes. They narrow the focus to photons that are in some interval
+        of every brushed axis.
     density
         False leaves the densities out.
     most_curves
@@ -259,13 +259,15 @@ _UNSET = 0.45
 def _gather_plot(
     figure: _engine.ParallelFigure, axes: tuple[Axis, ...], columns: list[ShownColumn], size: list[int]
 ) -> ParallelCoordinates:
+    from photonloupe.inspect.figure_marks import draw_marks  # noqa: PLC0415 - Pillow at first use
+
     count, width = len(columns[0].values), len(axes)
     points = np.empty((count, width, 2), np.float32)
     tangents = np.empty((count, width - 1, 2), np.float32)
     broken = 0
     for ids, its_points, its_tangents, its_broken in (figure.read_context(), figure.read_selected()):
-        points[ids] = its_points.reshape(-1, width, 2)
-        tangents[ids] = its_tangents.reshape(-1, width - 1, 2)
+        points[ids] = its_points.reshape(len(ids), width, 2)
+        tangents[ids] = its_tangents.reshape(len(ids), width - 1, 2)
         broken += its_broken
     labels = [column.label for column in columns]
     pixels = draw_marks(np.asarray(figure.read_pixels()).reshape(size[1], size[0], 4), figure.read_marks(), labels)

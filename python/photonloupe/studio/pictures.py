@@ -9,14 +9,15 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image as PillowImage
 
-from photonloupe.atomic import write_bytes
+from photonloupe import _engine
 from photonloupe.errors import ArgumentError
 
 
 def encode_pixels(pixels: NDArray[np.uint8]) -> bytes:
     """Encode (h, w, 3) sRGB pixels as a PNG."""
+    from PIL import Image as PillowImage  # noqa: PLC0415 - loaded when a picture is written
+
     stream = io.BytesIO()
     PillowImage.fromarray(np.ascontiguousarray(pixels)).save(stream, "png")
     return stream.getvalue()
@@ -27,4 +28,4 @@ def write_pixels(path: str | os.PathLike[str], pixels: NDArray[np.uint8]) -> Non
     target = Path(path)
     if target.suffix.lower() != ".png":
         raise ArgumentError(f"{target}: pictures of the interface are .png files")
-    write_bytes(target, encode_pixels(pixels))
+    _engine.write_file(str(target), encode_pixels(pixels))

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 
 import photonloupe as pl
 from photonloupe import _engine
-from photonloupe.atomic import write_bytes
 from photonloupe.errors import ArgumentError, PhotonLoupeError
 from photonloupe.studio.stages import Stages, describe_error
 
@@ -174,7 +173,7 @@ class Requests:
             raise ArgumentError("name a file to save the script to")
         if Path(path).suffix != SCRIPT:
             raise ArgumentError(f"{path}: scripts are {SCRIPT} files")
-        write_bytes(Path(path), state["script"]["text"].encode("utf-8"))
+        _engine.write_file(path, state["script"]["text"].encode("utf-8"))
         self._change("save script", {"script": {"path": str(Path(path).absolute())}})
         self._watch(str(Path(path).absolute()))
         self._native.say(f"saved {path}", False)

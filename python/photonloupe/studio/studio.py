@@ -396,5 +396,3 @@ def _check_size(size: Sequence[int]) -> tuple[int, int]:
         check_count("width", width, SMALLEST_SIDE, LARGEST_SIDE),
         check_count("height", height, SMALLEST_SIDE, LARGEST_SIDE),
     )
-
-
