@@ -149,7 +149,10 @@ void clear_brushes(Workspace& workspace) {
 }
 
 void reset_axes(Workspace& workspace) {
-    workspace.change("reset axes", [&](StudioState& state) { state.parallel.axes = choose_axes(workspace); });
+    workspace.change("reset axes", [&](StudioState& state) {
+        state.parallel.axes.clear(); // chosen anew for the photons there are
+        workspace.select(nullptr);
+    });
 }
 
 std::vector<AxisState> choose_axes(Workspace& workspace) {

@@ -43,8 +43,8 @@ const NumberRow ROWS[] = {
      }},
     {"tortuosity", "tortuosity", [](const auto& view) { return format(view.numbers.tortuosity); }},
     {"path length", "path length [m]", [](const auto& view) { return format(view.numbers.path_length); }},
-    {"eigenvalues", "λ₁ [m²]", [](const auto& view) { return format(view.spread.along_variance); }},
-    {"eigenvalues", "λ₂ [m²]", [](const auto& view) { return format(view.spread.across_variance); }},
+    {"eigenvalues", "λ1 [m²]", [](const auto& view) { return format(view.spread.along_variance); }},
+    {"eigenvalues", "λ2 [m²]", [](const auto& view) { return format(view.spread.across_variance); }},
     {"isotropy", "isotropy t", [](const auto& view) { return format(view.spread.isotropy); }},
     {"eigenvector 2", "eigenvector 2, x", [](const auto& view) { return format(view.across.x); }},
     {"eigenvector 2", "eigenvector 2, y", [](const auto& view) { return format(view.across.y); }},
@@ -161,9 +161,9 @@ void draw_numbers(Workspace& workspace) {
         return;
     }
     const inspect::LoupeView& first = *shown.front().second;
-    ImGui::TextDisabled("%zu photons within %s m, %s; basis of %s", first.ids.size(), format(first.radius).c_str(),
-                        workspace.state.loupe.space.c_str(),
-                        first.has_constraint ? "the constraint" : "the photons found");
+    ui::say_empty(std::to_string(first.ids.size()) + " photons within " + format(first.radius) + " m, " +
+                  workspace.state.loupe.space + "; basis of " +
+                  (first.has_constraint ? "the constraint" : "the photons found"));
     if (!ImGui::BeginTable("##numbers", static_cast<int>(shown.size()) + 1,
                            ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_ScrollY))
         return;

@@ -67,6 +67,37 @@ std::string format(float value) {
     return text;
 }
 
+// While nobody chose axes they follow the photons' parameters; the first change makes them the user's.
+std::vector<AxisState> list_axes(Workspace& workspace) {
+    const std::vector<AxisState>& chosen = workspace.state.parallel.axes;
+    return chosen.empty() && workspace.shown() ? choose_axes(workspace) : chosen;
+}
+
+template <class Change>
+void change_axes(Workspace& workspace, const char* name, const Change& make) {
+    const std::vector<AxisState> axes = list_axes(workspace);
+    workspace.change(name, [&](StudioState& state) {
+        state.parallel.axes = axes;
+        make(state.parallel.axes);
+    });
+}
+
+// The area between the axis and its density, a strip between two samples at a time.
+void fill_density(const inspect::Axis& axis, const inspect::AxisPlace& stand, const inspect::AxisDensity& density,
+                  ImVec2 corner) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImDrawFlags flags = std::exchange(list.Flags, list.Flags & ~ImDrawFlags_AAFill);
+    const auto place = [&](std::size_t sample, float depth) {
+        const glm::vec2 point = inspect::find_point(axis, stand, density.shares[sample]);
+        const glm::vec2 away = point + depth * inspect::find_outward(stand, point);
+        return ImVec2(corner.x + away.x, corner.y + away.y);
+    };
+    for (std::size_t i = 0; i + 1 < density.shares.size(); ++i)
+        list.AddQuadFilled(place(i, 0), place(i, DENSITY_WIDTH * density.heights[i]),
+                           place(i + 1, DENSITY_WIDTH * density.heights[i + 1]), place(i + 1, 0), DENSITY_COLOR);
+    list.Flags = flags;
+}
+
 } // namespace
 
 Ids find_brushed(Workspace& workspace) {
@@ -90,13 +121,11 @@ Ids find_brushed(Workspace& workspace) {
 }
 
 void ParallelPanel::find_axes(Workspace& workspace) {
-    if (workspace.state.parallel.axes.empty() && workspace.shown())
-        workspace.state.parallel.axes = choose_axes(workspace);
     m_plot.names.clear();
     m_plot.places.clear();
     m_plot.columns.clear();
     m_plot.axes.clear();
-    const std::vector<AxisState>& axes = workspace.state.parallel.axes;
+    const std::vector<AxisState> axes = list_axes(workspace);
     for (std::size_t i = 0; i < axes.size(); ++i) {
         std::string missing;
         const inspect::Column* column = workspace.seek_column(axes[i].name, missing);
@@ -154,7 +183,6 @@ void ParallelPanel::update(Workspace& workspace, std::uint32_t width, std::uint3
     }
     const auto start = std::chrono::steady_clock::now();
     find_axes(workspace);
-    m_plot.key = write_key(workspace, width, height); // axes may just have been chosen
     const std::string& source = workspace.state.parallel.source;
     const Ids ids = workspace.find_source(source);
     if (source == "loupe" && !ids)
@@ -188,7 +216,10 @@ void ParallelPanel::draw_axes(Workspace& workspace, float x, float y) {
     for (std::size_t i = 0; i < m_plot.axes.size(); ++i) {
         const inspect::Axis& axis = m_plot.axes[i];
         const inspect::AxisPlace& stand = m_plot.layout.places[i];
-        if (workspace.state.parallel.shows_density && i < m_plot.densities.size())
+        const bool has_density = workspace.state.parallel.shows_density && i < m_plot.densities.size();
+        if (has_density && !m_plot.densities[i].has_bars)
+            fill_density(axis, stand, m_plot.densities[i], {x, y});
+        else if (has_density)
             for (const auto& outline : inspect::outline_density(axis, stand, m_plot.densities[i], DENSITY_WIDTH))
                 fill(outline, DENSITY_COLOR);
         if (stand.rx > 0)
@@ -218,8 +249,8 @@ void ParallelPanel::draw_axes(Workspace& workspace, float x, float y) {
 void ParallelPanel::brush(Workspace& workspace, float from, float to, bool is_new) {
     const std::size_t at = m_plot.places[m_axis];
     const bool wraps = m_plot.axes[m_axis].is_closed;
-    workspace.change("brush", [&](StudioState& state) {
-        auto& brushes = state.parallel.axes[at].brushes;
+    change_axes(workspace, "brush", [&](std::vector<AxisState>& axes) {
+        auto& brushes = axes[at].brushes;
         if (is_new || brushes.empty())
             brushes.push_back({});
         brushes.back() = wraps ? std::array{from, to} : std::array{std::min(from, to), std::max(from, to)};
@@ -247,8 +278,8 @@ void ParallelPanel::take_mouse(Workspace& workspace, float x, float y) {
             if (m_grip == Grip::brush)
                 brush(workspace, m_begin, m_begin, io.KeyCtrl);
             if (m_grip == Grip::brush && !io.KeyCtrl)
-                workspace.change("brush", [&](StudioState& state) {
-                    auto& brushes = state.parallel.axes[m_plot.places[m_axis]].brushes;
+                change_axes(workspace, "brush", [&](std::vector<AxisState>& axes) {
+                    auto& brushes = axes[m_plot.places[m_axis]].brushes;
                     brushes.erase(brushes.begin(), brushes.end() - 1);
                 });
         }
@@ -261,29 +292,27 @@ void ParallelPanel::take_mouse(Workspace& workspace, float x, float y) {
         return;
     const std::size_t at = m_axis < m_plot.places.size() ? m_plot.places[m_axis] : 0;
     if (m_grip == Grip::move)
-        workspace.change("move axis", [&](StudioState& state) {
+        change_axes(workspace, "move axis", [&](std::vector<AxisState>& axes) {
             std::size_t to = 0;
             for (std::size_t i = 0; i < m_plot.layout.places.size(); ++i)
                 if (i != m_axis && m_plot.layout.places[i].center.x < pixel.x)
                     ++to;
-            const AxisState moved = state.parallel.axes[at];
-            state.parallel.axes.erase(state.parallel.axes.begin() + static_cast<std::ptrdiff_t>(at));
-            state.parallel.axes.insert(state.parallel.axes.begin() +
-                                           static_cast<std::ptrdiff_t>(std::min(to, state.parallel.axes.size())),
-                                       moved);
+            const AxisState moved = axes[at];
+            axes.erase(axes.begin() + static_cast<std::ptrdiff_t>(at));
+            axes.insert(axes.begin() + static_cast<std::ptrdiff_t>(std::min(to, axes.size())), moved);
         });
     if (m_grip == Grip::zoom) {
         const float end = inspect::find_value(m_plot.axes[m_axis], m_plot.layout.places[m_axis], pixel, m_begin);
-        workspace.change("zoom axis", [&](StudioState& state) {
-            AxisState& axis = state.parallel.axes[at];
+        change_axes(workspace, "zoom axis", [&](std::vector<AxisState>& axes) {
+            AxisState& axis = axes[at];
             axis.low = std::min(m_begin, end);
             axis.high = std::max(m_begin, end);
         });
     }
     // A click takes the axis' brushes away.
     if (m_grip == Grip::brush && !m_has_moved)
-        workspace.change("brush", [&](StudioState& state) {
-            state.parallel.axes[at].brushes.clear();
+        change_axes(workspace, "brush", [&](std::vector<AxisState>& axes) {
+            axes[at].brushes.clear();
             workspace.select(find_brushed(workspace));
         });
     m_grip = Grip::none;
@@ -294,12 +323,12 @@ void ParallelPanel::draw_axis_menu(Workspace& workspace) {
         return;
     const std::size_t at = m_axis < m_plot.places.size() ? m_plot.places[m_axis] : 0;
     const auto edit = [&](const char* name, const auto& make) {
-        workspace.change(name, [&](StudioState& state) {
-            make(state.parallel.axes[at]);
+        change_axes(workspace, name, [&](std::vector<AxisState>& axes) {
+            make(axes[at]);
             workspace.select(find_brushed(workspace));
         });
     };
-    const AxisState& axis = workspace.state.parallel.axes[at];
+    const AxisState axis = list_axes(workspace)[at];
     ImGui::TextDisabled("%s", axis.name.c_str());
     if (ui::toggle(workspace, "Parallel coordinates/Closed", "closed (ellipse)", axis.is_closed))
         edit("close axis", [](AxisState& state) { state.is_closed = !state.is_closed; });
@@ -314,9 +343,8 @@ void ParallelPanel::draw_axis_menu(Workspace& workspace) {
     if (ui::button(workspace, "Parallel coordinates/Whole", "whole range"))
         edit("whole range", [](AxisState& state) { state.low = state.high = 0; });
     if (ui::button(workspace, "Parallel coordinates/Remove", "remove")) {
-        workspace.change("remove axis", [&](StudioState& state) {
-            state.parallel.axes.erase(state.parallel.axes.begin() + static_cast<std::ptrdiff_t>(at));
-        });
+        change_axes(workspace, "remove axis",
+                    [&](std::vector<AxisState>& axes) { axes.erase(axes.begin() + static_cast<std::ptrdiff_t>(at)); });
         ImGui::CloseCurrentPopup();
     }
     ImGui::EndPopup();
@@ -351,10 +379,9 @@ void ParallelPanel::draw_toolbar(Workspace& workspace) {
     std::string added = "+ axis";
     ImGui::SetNextItemWidth(90 * workspace.scale);
     if (ui::choose_column(workspace, "Parallel coordinates/Add", "##add", added))
-        edit("add axis", [&](ParallelState& state) {
-            AxisState axis;
-            axis.name = added;
-            state.axes.push_back(axis);
+        change_axes(workspace, "add axis", [&](std::vector<AxisState>& axes) {
+            axes.emplace_back();
+            axes.back().name = added;
         });
     ImGui::SameLine();
     if (ui::button(workspace, "Parallel coordinates/Reset", "Reset", "The first axes again"))

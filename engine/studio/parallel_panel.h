@@ -43,9 +43,9 @@ private:
     Plot m_plot;
     gpu::Buffer m_pixels;
     Grip m_grip = Grip::none;
-    std::size_t m_axis = 0; // the one held, or of the menu
+    std::size_t m_axis = 0;   // the one held, or of the menu
     bool m_has_moved = false; // since the button went down
-    float m_begin = 0;      // value where the drag began
+    float m_begin = 0;        // value where the drag began
 };
 
 // The photons that all brushed axes choose, among those the plot shows; null without brushes.

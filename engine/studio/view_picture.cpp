@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 #include "core/error.h"
 #include "inspect/kd_cells.h"
@@ -18,6 +19,7 @@ namespace {
 constexpr std::uint32_t COARSE = 3;       // pixels a side of a coarse pixel has while the camera moves
 constexpr std::uint32_t STILL_FRAMES = 2; // without motion, before the picture is made whole
 constexpr glm::vec3 BACKGROUND(0.085f, 0.09f, 0.095f);
+constexpr std::uint32_t SMALLEST_BORDERED = 16; // pixels; smaller cells would be nothing but border
 constexpr std::uint32_t PLAIN_CELL = 0xff585450, CELL_BORDER = 0xff201c1a, NO_CELL_COLOR = 0xff18171a;
 
 std::string write_pose(const CameraPose& pose) {
@@ -57,6 +59,9 @@ std::uint32_t dim(std::uint32_t color) {
 std::vector<std::uint32_t> paint(const inspect::CellImage& cells, std::span<const std::uint32_t> colors,
                                  std::span<const std::uint32_t> marks, bool hashes) {
     std::vector<std::uint32_t> pixels(cells.ids.size(), NO_CELL_COLOR);
+    std::unordered_map<std::int32_t, std::uint32_t> sizes;
+    for (const std::int32_t id : cells.ids)
+        ++sizes[id];
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const std::int32_t id = cells.ids[i];
         if (id < 0)
@@ -67,7 +72,7 @@ std::vector<std::uint32_t> paint(const inspect::CellImage& cells, std::span<cons
                                                      : PLAIN_CELL;
         if (cell < marks.size() && !marks[cell])
             color = dim(color);
-        pixels[i] = cells.is_border[i] ? CELL_BORDER : color;
+        pixels[i] = cells.is_border[i] && sizes[id] >= SMALLEST_BORDERED ? CELL_BORDER : color;
     }
     return pixels;
 }

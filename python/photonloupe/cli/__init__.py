@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 from photonloupe import __version__
-from photonloupe.cli import compare, demo, doctor, relax, render, script, trace
+from photonloupe.cli import compare, demo, doctor, relax, render, script, studio, trace
 from photonloupe.cli.common import (
     EXIT_BAD_INPUT,
     EXIT_INTERNAL,
@@ -23,7 +23,7 @@ from photonloupe.cli.common import (
 )
 from photonloupe.errors import Cancelled, DeviceError, DeviceMemoryError, PhotonLoupeError, ScriptError
 
-_VERBS = (render, trace, script, relax, compare, doctor, demo)
+_VERBS = (render, trace, script, relax, studio, compare, doctor, demo)
 
 
 class _Parser(argparse.ArgumentParser):

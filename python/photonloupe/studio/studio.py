@@ -8,7 +8,6 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import TracebackType
 
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -122,10 +121,22 @@ class Studio:
         worked = self._worker.take_turn()
         return served or worked
 
-    def run(self) -> None:
-        """Draw frames until the window is closed."""
-        while not self.should_close:
+    def open(self, path: str | os.PathLike[str]) -> None:
+        """Open a scene, photon map, script, session or reference image, by its suffix; its work follows with frames.
+
+        Raises
+        ------
+        PhotonLoupeError
+            If it is none of those, or cannot be read.
+        """
+        self._requests.open_file(os.fspath(path))
+
+    def run(self, frames: int | None = None) -> None:
+        """Draw frames until the window is closed, or so many."""
+        drawn = 0
+        while not self.should_close and (frames is None or drawn < frames):
             self.frame()
+            drawn += 1
             self._requests.watch_files()
             self._native.wait(0.05 if self._worker.is_busy else 0.5)
 
