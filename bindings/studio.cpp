@@ -4,6 +4,7 @@
 
 #include <nanobind/stl/pair.h>
 
+#include "core/cache_folder.h"
 #include "studio/python_script.h"
 #include "studio/session.h"
 #include "studio/studio.h"
@@ -30,17 +31,17 @@ nb::ndarray<nb::numpy, std::uint8_t, nb::ndim<3>> take_pixels(const std::vector<
     return own_pixels(std::move(rgb), height, width);
 }
 
-nb::object describe_box(const std::optional<studio::WidgetBox>& box) {
+std::optional<std::array<float, 4>> describe_box(const std::optional<studio::WidgetBox>& box) {
     if (!box)
-        return nb::none();
-    return nb::make_tuple(box->x, box->y, box->width, box->height);
+        return std::nullopt;
+    return std::array{box->x, box->y, box->width, box->height};
 }
 
-nb::object take_job(Studio& self) {
+std::optional<std::array<std::string, 3>> take_job(Studio& self) {
     const std::optional<studio::Job> job = self.take_job();
     if (!job)
-        return nb::none();
-    return nb::make_tuple(job->kind, job->key, job->settings);
+        return std::nullopt;
+    return std::array{job->kind, job->key, job->settings};
 }
 
 nb::object read_selection(Studio& self) {
@@ -144,6 +145,10 @@ void bind_work(nb::class_<Studio>& type) {
         .def("deliver_images", &deliver_images, nb::arg("image").none(), nb::arg("colors").none())
         .def("deliver_comparison", &deliver_comparison, nb::arg("reference").none(), nb::arg("error").none(),
              nb::arg("rmse"), nb::arg("relmse"), nb::arg("flip"))
+        .def("offer_restore",
+             [](Studio& self, const std::string& path) {
+                 self.deliver([=](Workspace& workspace) { workspace.restorable = path; });
+             })
         .def("deliver_times",
              [](Studio& self, std::map<std::string, double> milliseconds) {
                  self.deliver([=](Workspace& workspace) { workspace.stage_milliseconds = milliseconds; });
@@ -212,6 +217,9 @@ void bind_studio(nb::module_& module) {
             open.workbench.build_view_trees(photons);
         },
         nb::arg("device"), nb::arg("photons"), "Build every tree that views ask a map's queries of.");
+    module.def(
+        "find_cache_folder", [] { return find_cache_folder().string(); },
+        "The per-user folder for what can be made again; empty: there is none.");
     module.def("list_studio_commands", [] {
         nb::list rows;
         for (const studio::Command& command : studio::list_commands())

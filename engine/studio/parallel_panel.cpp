@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "studio/edit_state.h"
+#include "studio/menus.h"
 #include "studio/theme.h"
 #include "studio/widgets.h"
 
@@ -386,6 +387,8 @@ void ParallelPanel::draw_toolbar(Workspace& workspace) {
     ImGui::SameLine();
     if (ui::button(workspace, "Parallel coordinates/Reset", "Reset", "The first axes again"))
         reset_axes(workspace);
+    ImGui::SameLine();
+    draw_selection_menu(workspace);
     ImGui::SameLine();
     std::string told = std::to_string(m_plot.curve_count) + " photons";
     if (workspace.state.selection)

@@ -5,6 +5,7 @@
 #include <imgui_stdlib.h>
 
 #include "studio/commands.h"
+#include "studio/menus.h"
 #include "studio/panels.h"
 #include "studio/theme.h"
 #include "studio/widgets.h"
@@ -63,6 +64,8 @@ void draw_status_line(Workspace& workspace) {
     if (ui::button(workspace, "Status/Keys", "?", "List every key"))
         find_command("help.keys").run(workspace);
     ImGui::SameLine();
+    draw_export_menu(workspace);
+    ImGui::SameLine();
     ImGui::SetNextItemWidth(150 * workspace.scale);
     if (ImGui::InputTextWithHint("##open", "open a scene, map, session", &workspace.open_path,
                                  ImGuiInputTextFlags_EnterReturnsTrue))
@@ -81,6 +84,7 @@ void draw_status_line(Workspace& workspace) {
         for (const auto& [stage, milliseconds] : workspace.stage_milliseconds)
             told += "  " + stage + " " + std::to_string(static_cast<int>(milliseconds)) + " ms";
     ImGui::TextDisabled("%s", told.c_str());
+    draw_restore_offer(workspace);
     draw_activity(workspace);
     ImGui::End();
 }

@@ -105,7 +105,7 @@ const std::vector<std::uint32_t>& Workspace::find_colors(const std::string& name
 }
 
 void Workspace::select(Ids ids) {
-    state.selection = ids && !ids->empty() ? std::move(ids) : nullptr;
+    state.selection = std::move(ids);
     ++selection_version;
 }
 

@@ -31,6 +31,15 @@ struct ExampleScript {
     std::string text;
 };
 
+// What stands in the fields of menus.
+struct ExportMenu {
+    std::string selection_name;
+    std::string panel = "View";
+    std::array<int, 2> size{1200, 800};
+    float scale = 1.5f;
+    std::string path;
+};
+
 // The work in progress, as the status line shows it.
 struct Activity {
     bool is_running = false;
@@ -59,8 +68,10 @@ struct Workspace {
     double frame_milliseconds = 0;
     std::vector<double> loupe_times, plot_times;      // milliseconds, of this frame
     std::map<std::string, double> stage_milliseconds; // of the last work
-    std::string open_path;                            // in the status line's field
-    std::string message;                              // the last thing that went wrong, or right; empty: none
+    ExportMenu menus;
+    std::string restorable; // a session that a crash left; empty: none
+    std::string open_path;  // in the status line's field
+    std::string message;    // the last thing that went wrong, or right; empty: none
     bool message_is_error = false;
     bool wants_render = false; // the Image panel's
     bool wants_isotropy = false;

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -28,8 +29,9 @@ _LARGEST_SCRIPT = 1 << 20
 class Requests:
     """Serves what the interface asks for beside its work, and notices files that changed."""
 
-    def __init__(self, native: _engine.Studio, stages: Stages) -> None:
+    def __init__(self, native: _engine.Studio, stages: Stages, export: Callable[..., None]) -> None:
         self._native = native
+        self._export = export
         self._stages = stages
         self._session = ""
         self._stamps: dict[str, float] = {}
@@ -56,6 +58,16 @@ class Requests:
             self.save_session(argument or self._session or _DEFAULT_SESSION)
         elif verb == "store_reference":
             self._store_reference()
+        elif verb == "export":
+            asked = json.loads(argument)
+            if not asked["path"]:
+                raise ArgumentError("name a file to write the figure to")
+            self._export(asked["panel"], asked["path"], asked["size"], asked["scale"])
+            self._native.say(f"wrote {asked['path']}", False)
+        elif verb in ("restore", "discard"):
+            if verb == "restore":
+                self._native.load_session(argument)
+            Path(argument).unlink(missing_ok=True)
 
     def open_file(self, path: str) -> None:
         """Open a scene, map, script, session or reference image, by its suffix."""
@@ -136,18 +148,17 @@ class Requests:
             for axis in state["axes"]
         ]
         ids = self._native.loupe_ids() if state["source"] == "loupe" else None
-        plot = pl.inspect.parallel_coordinates(photons, axes, ids, size, tension=state["tension"])
+        plot = pl.inspect.parallel_coordinates(photons, axes, selection=ids, size=size, tension=state["tension"])
         plot.save_svg(path)
 
     def watch_files(self) -> None:
         """Open files again that changed on the disk; what is wrong with one leaves the last good state."""
-        state: dict[str, Any] | None = None
         for path, stamp in list(self._stamps.items()):
             now = _find_stamp(path)
             if now in (stamp, 0.0):
                 continue
             self._stamps[path] = now
-            state = state or json.loads(self._native.state())
+            state = json.loads(self._native.state())
             try:
                 if path == state["script"]["path"]:
                     self.open_script(Path(path), runs=True)

@@ -19,6 +19,7 @@ from photonloupe.image import Image
 from photonloupe.photons import PhotonMap
 from photonloupe.scene import Scene
 from photonloupe.scripting import Script
+from photonloupe.studio.autosave import Autosave
 from photonloupe.studio.examples import find_examples
 from photonloupe.studio.pictures import encode_pixels, write_pixels
 from photonloupe.studio.requests import Requests
@@ -93,10 +94,14 @@ class Studio:
         self._is_open = True
         self._stages = Stages(self._device, self._native)
         self._worker = Worker(self._native, self._stages, is_threaded=background or not offscreen)
-        self._requests = Requests(self._native, self._stages)
+        self._requests = Requests(self._native, self._stages, self.export_panel)
         self._watchers: list[SelectionWatcher] = []
         self._seen_version = self._native.version()
         self._native.deliver_examples(find_examples())
+        self._autosave = None if offscreen else Autosave(self._native)
+        left = None if self._autosave is None else self._autosave.find_left()
+        if left is not None:
+            self._native.offer_restore(str(left))
         if scene is not None:
             self._requests.open_scene(scene, photons)
         if script is not None:
@@ -138,6 +143,8 @@ class Studio:
             self.frame()
             drawn += 1
             self._requests.watch_files()
+            if self._autosave is not None:
+                self._autosave.save_when_due()
             self._native.wait(0.05 if self._worker.is_busy else 0.5)
 
     @property
@@ -155,6 +162,8 @@ class Studio:
         if self._is_open:
             self._is_open = False
             self._worker.close()
+            if self._autosave is not None:
+                self._autosave.clear()
 
     def __enter__(self) -> Studio:
         return self
@@ -268,7 +277,8 @@ class Studio:
         box = self._native.widget(name)
         if box is None:
             raise ArgumentError(f"there is no widget {name!r} on the screen; widgets() lists those there are")
-        return tuple(box)
+        x, y, width, height = box
+        return float(x), float(y), float(width), float(height)
 
     def widgets(self) -> list[str]:
         """Return the names of all widgets drawn."""

@@ -43,7 +43,7 @@ class Worker:
         if not self._is_threaded:
             self._work(*job)
             return True
-        self._thread = threading.Thread(target=self._work, args=job, daemon=True)
+        self._thread = threading.Thread(target=self._work, args=tuple(job), daemon=True)
         self._thread.start()
         return False
 
