@@ -15,7 +15,6 @@ namespace {
 constexpr std::uint32_t COLOR_COUNT = 256;
 // Curves of the first dispatch, and the most of one: dispatches stay short while someone watches.
 constexpr std::uint32_t BLEND_GRANULE = 256, LARGEST_BLEND = 512;
-constexpr std::uint32_t COUNT_GRANULE = 4096;
 // As in shared/turns.glsl.
 constexpr float TURN_BUDGET = 60000;
 // On processors one part after the other; a graphics processor needs the invocations of many.
@@ -84,8 +83,9 @@ private:
     std::uint32_t count_jobs() const { return static_cast<std::uint32_t>(m_jobs.jobs.size()); }
 
     void count_crossings(const UploadedCurves& curves, std::uint32_t first_row, std::uint32_t row_count) {
+        const std::uint64_t chunk = std::uint64_t{m_split.part_size} * m_split.part_count;
         gpu::run_in_chunks(
-            m_device, "count crossings", curves.count, std::min(COUNT_GRANULE, m_split.part_size), {},
+            m_device, "count crossings", curves.count, chunk, {},
             [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
                 const std::uint64_t part_size = (count + m_split.part_count - 1) / m_split.part_count;
                 shared::CrossingSettings push{.first_group = 0,
@@ -103,7 +103,7 @@ private:
                 push.group_count = m_jobs.ragged_group_count;
                 record(commands, curves, push, {"RAGGED"});
             },
-            std::uint64_t{m_split.part_size} * m_split.part_count);
+            chunk);
     }
 
     void record(gpu::Commands& commands, const UploadedCurves& curves, const shared::CrossingSettings& push,
