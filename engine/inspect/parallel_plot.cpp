@@ -205,7 +205,7 @@ void draw_each(gpu::Device& device, const AxisLayout& layout, const Curves& curv
         return fill_background(device, style, pixels);
     const gpu::Buffer column_gaps = gpu::make_buffer(device, list_column_gaps(layout), "gaps of columns");
     const gpu::Buffer color_buffer = gpu::make_buffer(device, colors, "colors of curves");
-    const gpu::Buffer canvas(device, std::uint64_t{layout.width} * layout.height * sizeof(glm::vec4), "canvas");
+    const gpu::Buffer canvas(device, std::uint64_t{layout.width} * layout.height * sizeof(glm::uvec2), "canvas");
     shared::BlendSettings push{.background = style.background,
                                .width = layout.width,
                                .curve_count = uploaded.count,

@@ -42,7 +42,8 @@ def draw_marks(pixels: NDArray[np.uint8], marks: list[Any], labels: list[str]) -
             draw.line(tick, fill=AXIS_COLOR)
         x, y, _, ry = place
         for text, at in ((label, y - ry - 20), (above, y - ry - 5), (below, y + ry + 14)):
-            draw.text((x, at), text, fill=AXIS_COLOR, font=_load_font(), anchor="ms")
+            if text:
+                draw.text((x, at), text, fill=AXIS_COLOR, font=_load_font(), anchor="ms")
     return np.asarray(picture)
 
 
