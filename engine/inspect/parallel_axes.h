@@ -32,7 +32,7 @@ struct Axis {
 // Where an axis stands, in pixels, y downwards: an open one is the line from (x, y + ry) to (x, y - ry).
 struct AxisPlace {
     glm::vec2 center{0};
-    float rx = 0; // 0: open
+    float rx = 0; // 0: open; less than half the way to the next axis
     float ry = 0;
 };
 

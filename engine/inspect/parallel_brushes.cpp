@@ -11,8 +11,8 @@
 namespace photonloupe::inspect {
 namespace {
 
-// Straight pieces of a brush's outline.
-constexpr int BRUSH_STEPS = 64;
+// Straight pieces of a brush's outline on an ellipse.
+constexpr int ARC_STEPS = 64;
 
 double find_turn(const Axis& axis) {
     return (double(axis.high) - axis.low) / axis.periods;
@@ -68,8 +68,9 @@ std::vector<glm::vec2> outline_brush(const Axis& axis, const AxisPlace& place, c
         return {};
     const auto [first, last] = find_range(axis, brush);
     std::vector<glm::vec2> outer, outline;
-    for (int i = 0; i <= BRUSH_STEPS; ++i) {
-        const glm::vec2 point = find_point(axis, place, first + (last - first) * i / BRUSH_STEPS);
+    const int steps = axis.is_closed ? ARC_STEPS : 1;
+    for (int i = 0; i <= steps; ++i) {
+        const glm::vec2 point = find_point(axis, place, first + (last - first) * i / steps);
         outer.push_back(point + width * find_outward(place, point));
         outline.push_back(point - width * find_outward(place, point));
     }

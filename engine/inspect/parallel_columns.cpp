@@ -100,10 +100,8 @@ std::vector<GapColumns> find_gap_columns(const AxisLayout& layout) {
     for (std::size_t i = 0; i + 1 < layout.places.size(); ++i) {
         const AxisPlace &left = layout.places[i], &right = layout.places[i + 1];
         const auto clipped = [&](float x) { return clip(x, layout.width); };
-        GapColumns gap{clipped(std::floor(left.center.x - left.rx)), clipped(std::ceil(left.center.x + left.rx)),
-                       clipped(std::floor(right.center.x - right.rx)), clipped(std::ceil(right.center.x + right.rx))};
-        gap.first_regular = std::min(gap.first_regular, gap.end_regular);
-        gaps.push_back(gap);
+        gaps.push_back({clipped(std::floor(left.center.x - left.rx)), clipped(std::ceil(left.center.x + left.rx)),
+                        clipped(std::floor(right.center.x - right.rx)), clipped(std::ceil(right.center.x + right.rx))});
     }
     return gaps;
 }

@@ -3,6 +3,7 @@
 #include "inspect/parallel_plot.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "gpu/commands.h"
 #include "inspect/colormap.h"
@@ -14,9 +15,10 @@ namespace {
 constexpr std::uint32_t COLOR_COUNT = 256;
 // Curves of the first dispatch, and the most of one: dispatches stay short while someone watches.
 constexpr std::uint32_t BLEND_GRANULE = 256, LARGEST_BLEND = 512;
-constexpr std::uint32_t COUNT_GRANULE = 4096;
+// As in shared/turns.glsl.
+constexpr float TURN_BUDGET = 60000;
 // On processors one part after the other; a graphics processor needs the invocations of many.
-constexpr CountSplit SOFTWARE_SPLIT{16384, 1}, HARDWARE_SPLIT{2048, 32};
+constexpr CountSplit SOFTWARE_SPLIT{16384, 1}, HARDWARE_SPLIT{4096, 8};
 // Few invocations, each long: small workgroups spread them over all cores.
 constexpr std::uint32_t WORKGROUP = 16;
 
@@ -45,7 +47,7 @@ CountSplit complete_split(const gpu::Device& device, const CountSplit& asked) {
     if (asked.part_size > 0)
         split.part_size = std::min(asked.part_size, shared::LARGEST_PART);
     if (asked.part_count > 0)
-        split.part_count = asked.part_count;
+        split.part_count = std::min(asked.part_count, shared::LARGEST_PART_COUNT);
     return split;
 }
 
@@ -81,8 +83,9 @@ private:
     std::uint32_t count_jobs() const { return static_cast<std::uint32_t>(m_jobs.jobs.size()); }
 
     void count_crossings(const UploadedCurves& curves, std::uint32_t first_row, std::uint32_t row_count) {
+        const std::uint64_t chunk = std::uint64_t{m_split.part_size} * m_split.part_count;
         gpu::run_in_chunks(
-            m_device, "count crossings", curves.count, std::min(COUNT_GRANULE, m_split.part_size), {},
+            m_device, "count crossings", curves.count, chunk, {},
             [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
                 const std::uint64_t part_size = (count + m_split.part_count - 1) / m_split.part_count;
                 shared::CrossingSettings push{.first_group = 0,
@@ -100,7 +103,7 @@ private:
                 push.group_count = m_jobs.ragged_group_count;
                 record(commands, curves, push, {"RAGGED"});
             },
-            std::uint64_t{m_split.part_size} * m_split.part_count);
+            chunk);
     }
 
     void record(gpu::Commands& commands, const UploadedCurves& curves, const shared::CrossingSettings& push,
@@ -166,6 +169,26 @@ Curves join(const Curves& first, const Curves& second) {
     return joined;
 }
 
+// Rows a curve covers in a column at most. No monotone cubic is steeper than three times its chord (Fritsch and
+// Carlson 1980).
+float find_most_rows(const Curves& curves, float line_width) {
+    float steepest = 0;
+    for (std::size_t i = 0; i < curves.count(); ++i)
+        for (std::size_t a = 0; a + 1 < curves.axis_count; ++a) {
+            const glm::vec2 step =
+                curves.points[i * curves.axis_count + a + 1] - curves.points[i * curves.axis_count + a];
+            steepest = std::max(steepest, 3 * std::abs(step.y / step.x)); // NaN is no curve, and not the larger
+        }
+    return steepest + line_width * std::sqrt(1 + steepest * steepest) + 2;
+}
+
+// Curves of one dispatch: an invocation has a turn for each and for each row that it covers, in up to two gaps.
+std::uint32_t find_largest_blend(const Curves& curves, const AxisLayout& layout, float line_width) {
+    const float row_count = static_cast<float>(std::min(layout.height, shared::LARGEST_BAND));
+    const float turns = 1 + 2 * std::min(find_most_rows(curves, line_width), row_count);
+    return std::clamp(static_cast<std::uint32_t>((TURN_BUDGET - 2 * row_count) / turns), 1u, LARGEST_BLEND);
+}
+
 void fill_background(gpu::Device& device, const CurveStyle& style, const gpu::Buffer& pixels) {
     std::uint32_t color = 0;
     for (std::size_t i = 0; i < 4; ++i)
@@ -182,14 +205,15 @@ void draw_each(gpu::Device& device, const AxisLayout& layout, const Curves& curv
         return fill_background(device, style, pixels);
     const gpu::Buffer column_gaps = gpu::make_buffer(device, list_column_gaps(layout), "gaps of columns");
     const gpu::Buffer color_buffer = gpu::make_buffer(device, colors, "colors of curves");
-    const gpu::Buffer canvas(device, std::uint64_t{layout.width} * layout.height * sizeof(glm::vec4), "canvas");
+    const gpu::Buffer canvas(device, std::uint64_t{layout.width} * layout.height * sizeof(glm::uvec2), "canvas");
     shared::BlendSettings push{.background = style.background,
                                .width = layout.width,
                                .curve_count = uploaded.count,
                                .gap_count = uploaded.gap_count,
                                .line_width = style.line_width};
+    const std::uint32_t largest = find_largest_blend(curves, layout, style.line_width);
     gpu::run_in_chunks(
-        device, "blend curves", uploaded.count, BLEND_GRANULE, {},
+        device, "blend curves", uploaded.count, std::min(BLEND_GRANULE, largest), {},
         [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
             push.first_curve = static_cast<std::uint32_t>(first);
             push.end_curve = static_cast<std::uint32_t>(first + count);
@@ -205,7 +229,7 @@ void draw_each(gpu::Device& device, const AxisLayout& layout, const Curves& curv
                                   push, layout.width);
             }
         },
-        LARGEST_BLEND);
+        largest);
 }
 
 } // namespace

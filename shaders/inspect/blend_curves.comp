@@ -2,7 +2,7 @@
 // Draws curves one over the other in the order given, anti-aliased: an invocation owns a column of pixels and walks
 // the curves. Within the column a curve is taken as a straight strip, of which each pixel gets the exact area.
 // Inputs: column_gaps (first column of up to two gaps, the gaps), curves, extents, colors (sRGB and opacity, by curve).
-// Outputs: canvas between dispatches (sRGB, premultiplied), pixels after the last.
+// Outputs: canvas between dispatches (packed rows), pixels after the last.
 #include "shared/prelude.glsl"
 #include "shared/parallel.h"
 #include "inspect/pack_color.glsl"
@@ -10,7 +10,7 @@
 #pragma binding texel curves
 #pragma binding texel extents
 #pragma binding readonly vec4 colors
-#pragma binding vec4 canvas
+#pragma binding uvec2 canvas
 #pragma binding writeonly uint pixels
 
 layout(push_constant) uniform Push { BlendSettings settings; };
@@ -18,7 +18,15 @@ layout(push_constant) uniform Push { BlendSettings settings; };
 // Below this rise over the column a strip counts as level: the difference of two areas would lose all its digits.
 const float LEVEL = 1e-3;
 
-vec4 rows[LARGEST_BAND];
+// 16 bits a channel: memory instructions cost more than packing.
+uvec2 rows[LARGEST_BAND];
+
+uvec2 pack_row(vec4 color) {
+    uvec4 units = uvec4(color * 65535.0 + 0.5);
+    return units.xy | units.zw << 16;
+}
+
+vec4 unpack_row(uvec2 row) { return vec4(row & 0xffffu, row >> 16) * (1.0 / 65535.0); }
 
 float find_height(vec4 c, float u) {
     return ((c.x * u + c.y) * u + c.z) * u + c.w - 1.0 - float(settings.first_row);
@@ -47,7 +55,7 @@ void blend_strip(float left, float right, float width, vec4 color) {
     for (int row = first; row <= last; ++row) {
         float next = find_area_above(float(row + 1) - top, thickness, slope * width);
         float opacity = color.a * width * clamp(next - above, 0.0, 1.0);
-        rows[row] = vec4(color.rgb * opacity, opacity) + rows[row] * (1.0 - opacity);
+        rows[row] = pack_row(vec4(color.rgb * opacity, opacity) + unpack_row(rows[row]) * (1.0 - opacity));
         above = next;
     }
 }
@@ -64,14 +72,15 @@ void draw_gap(uint column, uint first_column, uint gap, uint curve, vec4 color) 
 }
 
 void load_rows(uint at) {
+    uvec2 background = pack_row(clamp(settings.background, 0.0, 1.0));
     for (uint row = 0u; row < settings.row_count; ++row)
-        rows[row] = settings.first_curve == 0u ? settings.background : canvas[at + row * settings.width];
+        rows[row] = settings.first_curve == 0u ? background : canvas[at + row * settings.width];
 }
 
 void store_rows(uint at) {
     for (uint row = 0u; row < settings.row_count; ++row)
         if (settings.end_curve == settings.curve_count)
-            pixels[at + row * settings.width] = pack_color(rows[row]);
+            pixels[at + row * settings.width] = pack_color(unpack_row(rows[row]));
         else
             canvas[at + row * settings.width] = rows[row];
 }

@@ -66,8 +66,11 @@ struct PixelSettings {
 const uint JOBS_PER_GROUP = 4u;
 // Rows of the image one invocation keeps at hand.
 const uint LARGEST_BAND = 1024u;
-// A part's counts of the curves that rise and of those that fall share one uint.
-const uint LARGEST_PART = 65535u;
+// A part's counts of the curves that rise and of those that fall share one uint. With a turn a curve and two a row an
+// invocation also stays within the turns that all its loops together have (shared/turns.glsl), as it does in summing up
+// this many parts.
+const uint LARGEST_PART = 32768u;
+const uint LARGEST_PART_COUNT = 8u;
 const uint NO_JOB = 0xffffffffu;
 
 SHARED_END

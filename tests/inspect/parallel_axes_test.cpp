@@ -101,6 +101,7 @@ TEST(ParallelAxes, values_far_beyond_the_ends_keep_finite_points) {
     const glm::vec2 point = find_value_point(make_closed(0, 1e-30f), ELLIPSE, 1e30f);
     EXPECT_LE(std::abs(point.x - 100), 25);
     EXPECT_LE(std::abs(point.y - 150), 100);
+    EXPECT_EQ(find_share(make_closed(0, 1), -1e-30f), 0) << "not 1, by rounding";
 }
 
 TEST(ParallelAxes, axis_without_extent_shows_its_value_half_way) {

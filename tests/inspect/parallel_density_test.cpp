@@ -39,7 +39,7 @@ void expect_kernel_sum(const Column& column, const Axis& axis, double turn) {
         const double place = axis.low + (double(axis.high) - axis.low) / axis.periods * density.shares[i];
         double sum = 0;
         for (float value : column.values)
-            for (int copy = turn > 0 ? -40 : 0; copy <= (turn > 0 ? 40 : 0); ++copy) {
+            for (int copy = turn > 0 ? -120 : 0; copy <= (turn > 0 ? 120 : 0); ++copy) {
                 const double offset = (place - value + copy * turn) / density.bandwidth;
                 sum += std::exp(-0.5 * offset * offset);
             }
@@ -50,6 +50,10 @@ void expect_kernel_sum(const Column& column, const Axis& axis, double turn) {
 
 TEST(ParallelDensity, is_the_sum_of_kernels) {
     expect_kernel_sum(make_column(draw_values(400, 3, 1), 0, 6), {.low = 0, .high = 6}, 0);
+}
+
+TEST(ParallelDensity, of_one_value_is_its_kernel) {
+    expect_kernel_sum(make_column({0.3f}), {.low = 0, .high = 1}, 0);
 }
 
 TEST(ParallelDensity, of_a_zoomed_range_counts_what_lies_beyond_it) {
@@ -70,6 +74,13 @@ TEST(ParallelDensity, wraps_on_a_closed_axis) {
 TEST(ParallelDensity, of_a_wound_axis_is_over_one_turn) {
     expect_kernel_sum(make_column(draw_values(300, 3, 0.2f), 0, 6),
                       {.low = 0, .high = 6, .is_closed = true, .periods = 3}, 2);
+}
+
+TEST(ParallelDensity, kernels_as_wide_as_a_turn_go_round_more_than_once) {
+    const Column column = make_column(draw_values(50, 3, 1), 0, 6);
+    const Axis axis{.low = 0, .high = 6, .is_closed = true, .periods = 60};
+    expect_kernel_sum(column, axis, 0.1);
+    EXPECT_NEAR(estimate(column, axis).bandwidth, 0.1, 1e-6) << "no wider: it is even all round by then";
 }
 
 TEST(ParallelDensity, bandwidth_is_silvermans) {

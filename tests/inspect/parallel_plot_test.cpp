@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "inspect/colormap.h"
 #include "inspect/made_columns.h"
 #include "inspect/parallel_columns.h"
 #include "support/shared_device.h"
@@ -115,7 +116,7 @@ TEST(ParallelPlot, image_higher_than_a_band_is_counted_whole) {
 }
 
 TEST(ParallelPlot, more_curves_than_a_part_holds_do_not_overflow) {
-    const std::size_t count = shared::LARGEST_PART + 10;
+    const std::size_t count = 3 * std::size_t{shared::LARGEST_PART};
     Plot plot{{make_column(std::vector<float>(count, 0.5f)), make_column(std::vector<float>(count, 0.5f))}, {}, {}, {}};
     plot.axes = make_axes(plot.columns);
     plot.layout = place_axes(plot.axes, 64, 40, {10, 10, 5, 5});
@@ -123,6 +124,11 @@ TEST(ParallelPlot, more_curves_than_a_part_holds_do_not_overflow) {
     const Counts counts = count_on_device(plot, 1, {1u << 20, 1});
     EXPECT_EQ(std::count(counts.begin(), counts.end(), count), 44) << "one row of the gap's columns";
     EXPECT_EQ(std::count(counts.begin(), counts.end(), 0u), 64 * 40 - 44);
+}
+
+TEST(ParallelPlot, most_parts_of_the_highest_band_are_summed_whole) {
+    const Plot plot = make_plot(900, 60, shared::LARGEST_BAND);
+    EXPECT_EQ(count_on_device(plot, 1, {100, 1000}), count_naively(plot));
 }
 
 TEST(ParallelPlot, every_curve_covers_every_column_without_holes) {
@@ -176,39 +182,130 @@ TEST(ParallelPlot, without_curves_or_gaps_the_background_stays) {
         }
 }
 
-// Share of a pixel within half a line's width of the curve, by sampling its middle points.
-double sample_area(const Plot& plot, std::size_t gap, double x, double y, double half_width) {
-    constexpr int SIDE = 16;
-    int inside = 0;
-    for (int i = 0; i < SIDE * SIDE; ++i) {
-        const double px = x + (i % SIDE + 0.5) / SIDE, py = y + (i / SIDE + 0.5) / SIDE;
-        const auto height = [&](double at) { return double(find_height(plot.curves, 0, gap, float(at))); };
-        const double slope = (height(px + 0.5) - height(px - 0.5));
-        inside += std::abs(py - height(px)) <= half_width * std::sqrt(1 + slope * slope);
+// Share of the pixel from `row` to `row` + 1 in a strip whose middle runs from `left` to `right` over the column.
+double sample_area(double left, double right, double thickness, double row) {
+    constexpr int SLICES = 400;
+    double area = 0;
+    for (int i = 0; i < SLICES; ++i) {
+        const double middle = left + (right - left) * (i + 0.5) / SLICES;
+        const double top = std::max(middle - thickness / 2, row), bottom = std::min(middle + thickness / 2, row + 1);
+        area += std::max(bottom - top, 0.0) / SLICES;
     }
-    return double(inside) / (SIDE * SIDE);
+    return area;
 }
 
-TEST(ParallelPlot, curve_has_in_each_pixel_the_area_it_covers) {
-    Plot plot{{make_column({0.1f}), make_column({0.9f}), make_column({0.85f}), make_column({0.2f})}, {}, {}, {}};
+using Canvas = std::vector<glm::dvec4>;
+
+void blend_column(const Plot& plot, std::size_t curve, std::size_t gap, std::uint32_t column, double line_width,
+                  const glm::dvec4& color, Canvas& canvas) {
+    const glm::vec2 from = plot.curves.points[curve * plot.axes.size() + gap];
+    const glm::vec2 to = plot.curves.points[curve * plot.axes.size() + gap + 1];
+    const double first = std::max<double>(column, from.x), last = std::min<double>(column + 1, to.x);
+    if (std::isnan(from.x) || std::isnan(to.x) || !(last > first))
+        return;
+    const double left = find_height(plot.curves, curve, gap, float(first));
+    const double right = find_height(plot.curves, curve, gap, float(last));
+    const double slope = (right - left) / (last - first);
+    const double thickness = line_width * std::sqrt(1 + slope * slope);
+    const double middle = (left + right) / 2, reach = std::abs(right - left) / 2 + thickness / 2 + 1;
+    for (double row = std::max(std::floor(middle - reach), 0.0);
+         row < std::min<double>(middle + reach, plot.layout.height); ++row) {
+        const double opacity = color.a * (last - first) * sample_area(left, right, thickness, row);
+        glm::dvec4& pixel = canvas[std::size_t(row) * plot.layout.width + column];
+        pixel = glm::dvec4(glm::dvec3(color), 1) * opacity + pixel * (1 - opacity);
+    }
+}
+
+Canvas blend_naively(const Plot& plot, const std::vector<glm::vec3>& colors, const CurveStyle& style) {
+    Canvas canvas(std::size_t{plot.layout.width} * plot.layout.height, style.background);
+    for (std::size_t curve = 0; curve < plot.curves.count(); ++curve)
+        for (std::size_t gap = 0; gap < plot.curves.gap_count(); ++gap)
+            for (std::uint32_t column = 0; column < plot.layout.width; ++column)
+                blend_column(plot, curve, gap, column, style.line_width, glm::dvec4(colors[curve], style.opacity),
+                             canvas);
+    return canvas;
+}
+
+TEST(ParallelPlot, few_curves_are_blended_as_naively) {
+    // Of 255: rounding to bytes, areas by slices, single precision where curves are steep.
+    constexpr double TOLERANCE = 1.5;
+    const std::vector<std::pair<std::uint32_t, std::uint32_t>> sizes{{300, 120}, {80, shared::LARGEST_BAND + 200}};
+    for (const auto& [width, height] : sizes) {
+        const Plot plot = make_plot(40, width, height);
+        std::vector<glm::vec3> colors;
+        for (std::size_t i = 0; i < 40; ++i)
+            colors.push_back({float(i % 3) / 2, float(i % 5) / 4, float(i % 7) / 6});
+        const CurveStyle style{.background = {0.9f, 0.8f, 0.7f, 1}, .opacity = 0.7f, .line_width = 1.5f};
+        const auto pixels = read_pixels(draw_curves(get_device(), plot.layout, {}, plot.curves, colors, style));
+        const Canvas expected = blend_naively(plot, colors, style);
+        double worst = 0;
+        for (std::size_t i = 0; i < pixels.size(); ++i)
+            worst = std::max(worst, std::abs(expected[i / 4][i % 4] * 255 - pixels[i]));
+        EXPECT_LT(worst, TOLERANCE) << width << " x " << height;
+    }
+}
+
+// A chunk of curves goes on where the one before it ended.
+TEST(ParallelPlot, many_blended_curves_are_the_naive_ones_too) {
+    const Plot plot = make_plot(700, 60, 50);
+    const std::vector<glm::vec3> colors(700, {0.2f, 0.3f, 0.4f});
+    const CurveStyle style{.opacity = 0.05f};
+    const auto pixels = read_pixels(draw_curves(get_device(), plot.layout, {}, plot.curves, colors, style));
+    const Canvas expected = blend_naively(plot, colors, style);
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+        ASSERT_NEAR(pixels[i], expected[i / 4][i % 4] * 255, 2) << i;
+}
+
+// All loops of an invocation together may turn 65,535 times on the software device: these would 200,000 times.
+TEST(ParallelPlot, curves_that_cover_whole_columns_are_all_drawn) {
+    constexpr std::size_t COUNT = 400;
+    std::vector<float> up(COUNT), down(COUNT);
+    for (std::size_t i = 0; i < COUNT; ++i) {
+        up[i] = float(i % 2);
+        down[i] = 1 - up[i];
+    }
+    Plot plot{{make_column(up), make_column(down), make_column(up)}, {}, {}, {}};
     plot.axes = make_axes(plot.columns);
-    plot.layout = place_axes(plot.axes, 320, 200, {10, 10, 10, 10});
-    plot.curves = build_curves(plot.columns, plot.axes, plot.layout, {0});
-    const CurveStyle style{.background = {0, 0, 0, 1}, .selected_color = {1, 1, 1}, .opacity = 1, .line_width = 1.5f};
-    const std::vector<std::uint8_t> pixels = draw(plot, style);
-    double worst = 0, total = 0;
-    for (std::uint32_t column = 12; column < 308; ++column)
-        for (std::uint32_t row = 0; row < 200; ++row) {
-            const std::size_t gap = (column - 10) / 100;
-            const double expected =
-                (column - 10) % 100 < 2 || (column - 10) % 100 > 97 ? -1 : sample_area(plot, gap, column, row, 0.75);
-            if (expected < 0)
-                continue;
-            worst = std::max(worst, std::abs(expected - pixels[4 * (row * 320 + column)] / 255.0));
-            total += expected;
+    plot.layout = place_axes(plot.axes, 24, 1000, {5, 5, 5, 5});
+    plot.curves = build_curves(plot.columns, plot.axes, plot.layout, list_ids(COUNT));
+    const std::vector<glm::vec3> colors(COUNT, {0.2f, 0.3f, 0.4f});
+    const CurveStyle style{.opacity = 0.01f};
+    const auto pixels = read_pixels(draw_curves(get_device(), plot.layout, {}, plot.curves, colors, style));
+    const Canvas expected = blend_naively(plot, colors, style);
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+        ASSERT_NEAR(pixels[i], expected[i / 4][i % 4] * 255, 2) << i;
+}
+
+// The share of a color on the logarithmic scale.
+double find_share_of(std::uint32_t count, std::uint32_t most) {
+    return most > 1 ? std::log(double(count)) / std::log(double(most)) : 0;
+}
+
+TEST(ParallelPlot, density_is_colored_on_a_logarithmic_scale_over_the_context) {
+    const Plot plot = make_plot(60);
+    const Counts selected = count_naively(plot);
+    Plot other = make_plot(200);
+    other.columns = make_columns(4, 200, 9);
+    other.curves = build_curves(other.columns, other.axes, other.layout, list_ids(200));
+    const Counts context = count_naively(other);
+    const CurveStyle style{.background = {1, 1, 1, 1}, .context_color = {0, 0.5f, 0}, .most_curves = 0};
+    const std::vector<std::uint8_t> pixels = draw(plot, style, other.curves);
+    const std::uint32_t most = *std::max_element(selected.begin(), selected.end());
+    const std::uint32_t most_context = *std::max_element(context.begin(), context.end());
+    std::size_t context_alone = 0;
+    for (std::size_t i = 0; i < selected.size(); ++i) {
+        glm::vec3 expected(1);
+        if (selected[i] > 0) {
+            expected = map_color(Colormap::viridis, float(find_share_of(selected[i], most)));
+        } else if (context[i] > 0) {
+            ++context_alone;
+            const auto opacity = float(0.25 + 0.75 * find_share_of(context[i], most_context));
+            expected = opacity * style.context_color + (1 - opacity) * glm::vec3(1);
         }
-    EXPECT_GT(total, 300);
-    EXPECT_LT(worst, 0.07) << "sampling and the strip's straightness";
+        for (std::size_t k = 0; k < 3; ++k) // one entry of the color map to either side
+            ASSERT_NEAR(pixels[4 * i + k], expected[k] * 255, 5) << i;
+    }
+    EXPECT_GT(context_alone, 20u);
 }
 
 TEST(ParallelPlot, later_curves_lie_over_earlier_ones_and_the_selection_over_the_context) {
