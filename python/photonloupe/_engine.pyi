@@ -352,11 +352,11 @@ class Studio:
 
     def command(self, arg: str, /) -> None: ...
 
-    def widget(self, arg: str, /) -> object: ...
+    def widget(self, arg: str, /) -> list[float] | None: ...
 
     def widgets(self) -> list[str]: ...
 
-    def take_job(self) -> object:
+    def take_job(self) -> list[str] | None:
         """
         (kind, key, settings as JSON) of the next piece of work, once; None: there is none.
         """
@@ -380,6 +380,8 @@ class Studio:
     def deliver_images(self, image: Annotated[NDArray[numpy.float32], dict(shape=(None, None, 3), order='C', writable=False)] | None, colors: Annotated[NDArray[numpy.float32], dict(shape=(None, None, 3), order='C', writable=False)] | None) -> None: ...
 
     def deliver_comparison(self, reference: Annotated[NDArray[numpy.float32], dict(shape=(None, None, 3), order='C', writable=False)] | None, error: Annotated[NDArray[numpy.float32], dict(shape=(None, None, 3), order='C', writable=False)] | None, rmse: float, relmse: float, flip: float) -> None: ...
+
+    def offer_restore(self, arg: str, /) -> None: ...
 
     def deliver_times(self, arg: Mapping[str, float], /) -> None: ...
 
@@ -410,5 +412,8 @@ def open_studio(device: Device, size: tuple[int, int], scale: float, offscreen: 
 
 def build_view_trees(device: Device, photons: PhotonMap) -> None:
     """Build every tree that views ask a map's queries of."""
+
+def find_cache_folder() -> str:
+    """The per-user folder for what can be made again; empty: there is none."""
 
 def list_studio_commands() -> list: ...
