@@ -356,7 +356,7 @@ class Studio:
     @property
     def relaxed(self) -> PhotonMap | None:
         """The relaxed photons, if any."""
-        return self._stages.relaxed
+        return self._stages.relaxed if self._native.has_relaxed() else None
 
     @property
     def scene(self) -> Scene | None:
