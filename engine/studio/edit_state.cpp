@@ -13,6 +13,27 @@
 namespace photonloupe::studio {
 namespace {
 
+// Places, parameters, signature.
+std::vector<AxisState> choose_axes(Workspace& workspace) {
+    std::vector<AxisState> axes;
+    const auto add = [&](const std::string& name, bool is_closed) {
+        AxisState axis;
+        axis.name = name;
+        axis.is_closed = is_closed;
+        axes.push_back(axis);
+    };
+    for (const char* name : {"x", "y", "z"})
+        add(name, false);
+    const Photons* photons = workspace.shown();
+    if (photons && photons->map.parameters)
+        for (const ParameterAxis& parameter : photons->map.parameters->axes)
+            add(parameter.name, parameter.period > 0);
+    for (const inspect::ColumnInfo& info : workspace.list_columns())
+        if (info.missing.empty() && (info.name == "signature" || (axes.size() < 6 && info.name.starts_with("primal_"))))
+            add(info.name, info.period > 0);
+    return axes;
+}
+
 void after_jump(Workspace& workspace, const char* what, const std::string& name) {
     workspace.drop_unknown_ids();
     ++workspace.loupe_version;
@@ -38,7 +59,7 @@ void redo(Workspace& workspace) {
 }
 
 void copy_python(Workspace& workspace) {
-    ImGui::SetClipboardText(write_python(workspace.state).c_str());
+    ImGui::SetClipboardText(write_python(complete_state(workspace)).c_str());
     workspace.say("the Python of this state is on the clipboard");
 }
 
@@ -155,24 +176,15 @@ void reset_axes(Workspace& workspace) {
     });
 }
 
-std::vector<AxisState> choose_axes(Workspace& workspace) {
-    std::vector<AxisState> axes;
-    const auto add = [&](const std::string& name, bool is_closed) {
-        AxisState axis;
-        axis.name = name;
-        axis.is_closed = is_closed;
-        axes.push_back(axis);
-    };
-    for (const char* name : {"x", "y", "z"})
-        add(name, false);
-    const Photons* photons = workspace.shown();
-    if (photons && photons->map.parameters)
-        for (const ParameterAxis& parameter : photons->map.parameters->axes)
-            add(parameter.name, parameter.period > 0);
-    for (const inspect::ColumnInfo& info : workspace.list_columns())
-        if (info.missing.empty() && (info.name == "signature" || (axes.size() < 6 && info.name.starts_with("primal_"))))
-            add(info.name, info.period > 0);
-    return axes;
+std::vector<AxisState> list_axes(Workspace& workspace) {
+    const std::vector<AxisState>& chosen = workspace.state.parallel.axes;
+    return chosen.empty() && workspace.shown() ? choose_axes(workspace) : chosen;
+}
+
+StudioState complete_state(Workspace& workspace) {
+    StudioState state = workspace.state;
+    state.parallel.axes = list_axes(workspace);
+    return state;
 }
 
 void toggle_keys(Workspace& workspace) {

@@ -64,7 +64,7 @@ void Panels::draw(Workspace& workspace) {
         m_image = std::make_unique<ImagePanel>();
     }
     workspace.wants_render = shows_render(workspace.state.view.mode);
-    workspace.wants_isotropy = workspace.state.relax.choices.has_auto_beta;
+    workspace.wants_isotropy = false;
     const std::pair<const char*, std::function<void()>> panels[] = {
         {"Script", [&] { m_script->draw(workspace); }},
         {"View", [&] { m_view->draw(workspace); }},

@@ -68,12 +68,6 @@ std::string format(float value) {
     return text;
 }
 
-// While nobody chose axes they follow the photons' parameters; the first change makes them the user's.
-std::vector<AxisState> list_axes(Workspace& workspace) {
-    const std::vector<AxisState>& chosen = workspace.state.parallel.axes;
-    return chosen.empty() && workspace.shown() ? choose_axes(workspace) : chosen;
-}
-
 template <class Change>
 void change_axes(Workspace& workspace, const char* name, const Change& make) {
     const std::vector<AxisState> axes = list_axes(workspace);

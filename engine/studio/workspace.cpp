@@ -15,6 +15,7 @@ namespace photonloupe::studio {
 namespace {
 
 constexpr const char* ENCODING = "encoding";
+constexpr const char* ISOTROPY = "isotropy";
 
 std::uint32_t pack_color(glm::vec3 srgb) {
     const auto byte = [](float value) {
@@ -65,6 +66,13 @@ const inspect::Column& Workspace::find_column(const std::string& name, Photons* 
     const auto found = m_columns.find(key);
     if (found != m_columns.end())
         return found->second;
+    // Neighbours of every photon in parameter space take too long for a frame.
+    if (name == ISOTROPY && photons->map.parameters) {
+        wants_isotropy = true;
+        if (!results.isotropy)
+            throw Error("isotropy is being measured");
+        return m_columns[key] = {name, "isotropy t", results.isotropy->values, 0, 1};
+    }
     return m_columns[key] = inspect::find_column(bench, *photons, name);
 }
 
@@ -123,6 +131,8 @@ void Workspace::take_photons(std::shared_ptr<const Scene> scene, std::shared_ptr
     results.scene = std::move(scene);
     results.photons = std::move(photons);
     results.relaxed.reset();
+    results.isotropy.reset();
+    done.erase("isotropy");
     results.steps.clear();
     done.erase("relax");
     ++results.photons_version;
@@ -148,6 +158,12 @@ void Workspace::drop_unknown_ids() {
     select(keep_known(state.selection));
     for (auto& [name, ids] : state.named)
         ids = keep_known(ids);
+}
+
+void Workspace::take_isotropy(IsotropyResult isotropy) {
+    results.isotropy = std::move(isotropy);
+    state.histogram.threshold = static_cast<float>(results.isotropy->threshold);
+    ++results.photons_version; // views of the column are drawn anew
 }
 
 void Workspace::take_relaxed(std::shared_ptr<Photons> photons, std::vector<StepResult> steps, double beta) {
