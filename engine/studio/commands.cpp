@@ -117,6 +117,9 @@ int parse_chord(std::string_view text) {
 
 void run_pressed_commands(Workspace& workspace) {
     const ImGuiIO& io = ImGui::GetIO();
+    // Tab is before and after; ImGui would take it to the next field.
+    if (!io.WantTextInput)
+        ImGui::SetKeyOwner(ImGuiKey_Tab, ImGui::GetID("commands"));
     for (const Command& command : COMMANDS) {
         if (command.keys.empty())
             continue;

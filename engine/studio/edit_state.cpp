@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include "core/error.h"
+#include "inspect/histogram.h"
 #include "photons/map_columns.h"
 #include "studio/python_script.h"
 
@@ -125,19 +126,20 @@ void toggle_split(Workspace& workspace) {
 }
 
 std::optional<Bounds> find_photon_box(const Photons& photons, const Ids& ids) {
+    constexpr double OUTLIERS = 0.005; // share beyond either end that a frame of all photons leaves out
     const std::vector<float> positions = read_positions(photons.map);
-    Bounds box{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}};
-    const std::size_t count = ids ? ids->size() : photons.map.count;
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t photon = ids ? (*ids)[i] : i;
-        if (photon >= photons.map.count)
-            continue;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            box.lo[axis] = std::min(box.lo[axis], static_cast<double>(positions[3 * photon + axis]));
-            box.hi[axis] = std::max(box.hi[axis], static_cast<double>(positions[3 * photon + axis]));
-        }
+    Bounds box;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        std::vector<float> values;
+        for (std::size_t i = 0; i < (ids ? ids->size() : photons.map.count); ++i)
+            if (const std::size_t photon = ids ? (*ids)[i] : i; photon < photons.map.count)
+                values.push_back(positions[3 * photon + axis]);
+        if (values.empty())
+            return std::nullopt;
+        box.lo[axis] = inspect::find_quantile(values, ids ? 0.0 : OUTLIERS);
+        box.hi[axis] = inspect::find_quantile(values, ids ? 1.0 : 1.0 - OUTLIERS);
     }
-    return box.lo[0] <= box.hi[0] ? std::optional(box) : std::nullopt;
+    return box;
 }
 
 void frame_selection(Workspace& workspace) {
@@ -184,6 +186,14 @@ std::vector<AxisState> list_axes(Workspace& workspace) {
 StudioState complete_state(Workspace& workspace) {
     StudioState state = workspace.state;
     state.parallel.axes = list_axes(workspace);
+    for (AxisState& axis : state.parallel.axes) {
+        std::string missing;
+        const inspect::Column* column = axis.low == axis.high ? workspace.seek_column(axis.name, missing) : nullptr;
+        if (column) {
+            axis.low = column->low;
+            axis.high = column->high;
+        }
+    }
     return state;
 }
 

@@ -68,7 +68,7 @@ void draw_numbers(Workspace& workspace) {
 
 void draw_choices(Workspace& workspace) {
     const RelaxChoices& now = workspace.state.relax.choices;
-    ImGui::PushItemWidth(0.34f * ImGui::GetContentRegionAvail().x);
+    ImGui::PushItemWidth(0.28f * ImGui::GetContentRegionAvail().x);
     static constexpr const char* DESCRIPTORS[] = {"none", "gradient", "pca", "tensor", "split"};
     const int descriptor = ui::choose(workspace, "Relaxation/Descriptor", "descriptor", now.descriptor,
                                       {DESCRIPTORS[0], DESCRIPTORS[1], DESCRIPTORS[2], DESCRIPTORS[3], DESCRIPTORS[4]});
@@ -81,7 +81,7 @@ void draw_choices(Workspace& workspace) {
         edit(workspace, "constraint", [&](RelaxChoices& state) {
             state.constraint = space == 0 ? "auto" : space == 1 ? "world" : "parameter";
         });
-    const int repel = ui::choose(workspace, "Relaxation/Repel", "repulsion", now.repel, {"world", "parameter"});
+    const int repel = ui::choose(workspace, "Relaxation/Repel", "repel", now.repel, {"world", "parameter"});
     if (repel >= 0)
         edit(workspace, "repulsion", [&](RelaxChoices& state) { state.repel = repel == 0 ? "world" : "parameter"; });
     ImGui::SameLine(0.5f * ImGui::GetContentRegionAvail().x);
@@ -110,7 +110,7 @@ void draw_curves(Workspace& workspace) {
     if (!ImPlot::BeginPlot("##steps", {-1, -1}, ImPlotFlags_NoMouseText))
         return;
     ImPlot::SetupAxes("step", nullptr, ImPlotAxisFlags_AutoFit, ImPlotAxisFlags_AutoFit);
-    ImPlot::SetupLegend(ImPlotLocation_NorthEast, ImPlotLegendFlags_Horizontal);
+    ImPlot::SetupLegend(ImPlotLocation_NorthEast);
     const int count = static_cast<int>(steps.size());
     ImPlot::PlotLine("mean move / r", numbers.data(), moves.data(), count);
     ImPlot::PlotLine("low-frequency power", numbers.data(), frequencies.data(), count);

@@ -140,7 +140,7 @@ void draw_key_list(Workspace& workspace) {
     ImGui::SetNextWindowSize({0, std::min(0.9f * size.y, 720 * workspace.scale)});
     ImGui::SetNextWindowFocus();
     if (ImGui::Begin("Keys", &workspace.shows_keys, ImGuiWindowFlags_NoDocking | ImGuiWindowFlags_NoCollapse)) {
-        if (ImGui::BeginTable("##keys", 2, ImGuiTableFlags_RowBg)) {
+        if (ImGui::BeginTable("##keys", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
             const auto row = [](const std::string& keys, const std::string& about) {
                 ImGui::TableNextRow();
                 ImGui::TableNextColumn();

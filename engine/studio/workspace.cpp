@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "image/png.h"
 #include "inspect/colormap.h"
+#include "inspect/histogram.h"
 #include "studio/edit_state.h"
 
 namespace photonloupe::studio {
@@ -36,6 +37,22 @@ std::vector<std::uint32_t> pack_encoding(const PhotonMap& map) {
                                                   255.0f)
                                      : pack_color(inspect::UNSET_COLOR));
     return colors;
+}
+
+// A few photons far out would leave the others no room: then the range is that of all but a share of them.
+void leave_outliers_out(inspect::Column& column) {
+    constexpr double SHARE = 0.005, MOST_ROOM = 3;
+    const double low = inspect::find_quantile(column.values, SHARE);
+    const double high = inspect::find_quantile(column.values, 1 - SHARE);
+    if (high > low && column.high - column.low > MOST_ROOM * (high - low)) {
+        column.low = static_cast<float>(low);
+        column.high = static_cast<float>(high);
+    }
+}
+
+bool is_parameter(const PhotonMap& map, const std::string& name) {
+    return map.parameters && std::any_of(map.parameters->axes.begin(), map.parameters->axes.end(),
+                                         [&](const ParameterAxis& axis) { return axis.name == name; });
 }
 
 std::vector<std::uint32_t> pack_column(const inspect::Column& column) {
@@ -73,7 +90,10 @@ const inspect::Column& Workspace::find_column(const std::string& name, Photons* 
             throw Error("isotropy is being measured");
         return m_columns[key] = {name, "isotropy t", results.isotropy->values, 0, 1};
     }
-    return m_columns[key] = inspect::find_column(bench, *photons, name);
+    inspect::Column column = inspect::find_column(bench, *photons, name);
+    if (!is_parameter(photons->map, name)) // bounds of parameters were declared
+        leave_outliers_out(column);
+    return m_columns[key] = std::move(column);
 }
 
 const inspect::Column* Workspace::seek_column(const std::string& name, std::string& missing, Photons* photons) {
@@ -132,6 +152,7 @@ void Workspace::take_photons(std::shared_ptr<const Scene> scene, std::shared_ptr
     results.photons = std::move(photons);
     results.relaxed.reset();
     results.isotropy.reset();
+    wants_isotropy = false;
     done.erase("isotropy");
     results.steps.clear();
     done.erase("relax");

@@ -76,9 +76,9 @@ struct Workspace {
     bool wants_render = false;   // the Image panel's
     bool wants_isotropy = false; // whoever asked for the column
     bool shows_keys = false;
-    std::string focus;      // a panel to bring to the front; empty: none
-    std::string solo;       // the only panel, filling the window: exports; empty: all
-    bool is_settled = true; // views have nothing left to refine
+    std::string focus = "Relaxation"; // a panel to bring to the front; empty: none
+    std::string solo;                 // the only panel, filling the window: exports; empty: all
+    bool is_settled = true;           // views have nothing left to refine
 
     std::optional<inspect::LoupeView> loupe; // what it sees now
     std::string loupe_missing;               // why it sees nothing
