@@ -89,6 +89,23 @@ void draw_choices(Workspace& workspace) {
                                   "Radii of every step, or those of the step before, corrected by count");
     if (search >= 0)
         edit(workspace, "search", [&](RelaxChoices& state) { state.search = search == 0 ? "exact" : "carried"; });
+    const int surface = ui::choose(workspace, "Relaxation/Surface", "surface", now.surface, {"auto", "tangent"},
+                                   "Photons return to the surface they lie on, or move in their tangent planes");
+    if (surface >= 0)
+        edit(workspace, "surface", [&](RelaxChoices& state) { state.surface = surface == 0 ? "auto" : "tangent"; });
+    ImGui::SameLine(0.5f * ImGui::GetContentRegionAvail().x);
+    const int tree = ui::choose(workspace, "Relaxation/Tree", "tree", now.tree, {"auto", "layered", "position"},
+                                "What neighbors of a layer are sought in");
+    if (tree >= 0)
+        edit(workspace, "tree", [&](RelaxChoices& state) {
+            state.tree = tree == 0 ? "auto" : tree == 1 ? "layered" : "position";
+        });
+    std::array<float, 2> thresholds = now.thresholds;
+    if (ImGui::InputFloat2("thresholds", thresholds.data(), "%.3g"))
+        edit(workspace, "thresholds", [&](RelaxChoices& state) { state.thresholds = thresholds; });
+    ui::mark(workspace, "Relaxation/Thresholds");
+    ui::explain("Value of the descriptor that leaves a photon free, and the one that fixes it; equal: its own");
+    ImGui::SameLine(0.5f * ImGui::GetContentRegionAvail().x);
     if (ui::toggle(workspace, "Relaxation/Flux", "even out flux", now.diffuse_flux))
         edit(workspace, "even out flux", [](RelaxChoices& state) { state.diffuse_flux = !state.diffuse_flux; });
     ImGui::PopItemWidth();
