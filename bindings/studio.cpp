@@ -5,6 +5,7 @@
 #include <nanobind/stl/pair.h>
 
 #include "core/cache_folder.h"
+#include "studio/edit_state.h"
 #include "studio/python_script.h"
 #include "studio/session.h"
 #include "studio/studio.h"
@@ -74,6 +75,12 @@ void deliver_relaxed(Studio& self, std::shared_ptr<Photons> photons, const std::
     });
 }
 
+void deliver_isotropy(Studio& self, nb::ndarray<nb::numpy, const float, nb::ndim<1>, nb::c_contig> values, double beta,
+                      double threshold) {
+    studio::IsotropyResult result{{values.data(), values.data() + values.size()}, beta, threshold};
+    self.deliver([result = std::move(result)](Workspace& workspace) { workspace.take_isotropy(result); });
+}
+
 void deliver_script(Studio& self, const nb::list& histograms, std::vector<std::string> prints,
                     std::vector<std::string> report, double milliseconds) {
     studio::ScriptResult result{{}, std::move(prints), std::move(report), milliseconds};
@@ -141,7 +148,12 @@ void bind_work(nb::class_<Studio>& type) {
                        bool is_error) { self.deliver([=](Workspace& workspace) { workspace.say(text, is_error); }); })
         .def("deliver_photons", &deliver_photons, nb::arg("scene").none(), nb::arg("photons"))
         .def("deliver_relaxed", &deliver_relaxed, nb::arg("photons").none(), nb::arg("steps"), nb::arg("beta"))
+        .def("deliver_isotropy", &deliver_isotropy)
         .def("deliver_script", &deliver_script)
+        .def("forget_work",
+             [](Studio& self, const std::string& kind) {
+                 self.deliver([=](Workspace& workspace) { workspace.done.erase(kind); });
+             })
         .def("deliver_images", &deliver_images, nb::arg("image").none(), nb::arg("colors").none())
         .def("deliver_comparison", &deliver_comparison, nb::arg("reference").none(), nb::arg("error").none(),
              nb::arg("rmse"), nb::arg("relmse"), nb::arg("flip"))
@@ -170,7 +182,9 @@ void bind_state(nb::class_<Studio>& type) {
              [](Studio& self, const std::string& path) { studio::save_session(path, self.workspace().state); })
         .def("load_session",
              [](Studio& self, const std::string& path) { self.set_state("open session", studio::load_session(path)); })
-        .def("python", [](Studio& self) { return studio::write_python(self.workspace().state); })
+        .def("python", [](Studio& self) { return studio::write_python(studio::complete_state(self.workspace())); })
+        .def("complete_state",
+             [](Studio& self) { return studio::write_state(studio::complete_state(self.workspace()), {}); })
         .def("message",
              [](Studio& self) { return std::pair(self.workspace().message, self.workspace().message_is_error); })
         .def("loupe_ids",

@@ -121,7 +121,7 @@ void run_pressed_commands(Workspace& workspace) {
     if (has_menu && ImGui::IsKeyPressed(ImGuiKey_Escape, false))
         ImGui::ClosePopupToLevel(0, true);
     const bool takes_text = ImGui::GetIO().WantTextInput || has_menu;
-    // Outside of texts tab is a command's; ImGui would move the focus into the next text.
+    // Tab is before and after; ImGui would take it to the next field.
     if (!takes_text)
         ImGui::SetKeyOwner(ImGuiKey_Tab, ImGui::GetID("commands"));
     for (const Command& command : COMMANDS) {

@@ -7,11 +7,33 @@
 #include <imgui.h>
 
 #include "core/error.h"
+#include "inspect/histogram.h"
 #include "photons/map_columns.h"
 #include "studio/python_script.h"
 
 namespace photonloupe::studio {
 namespace {
+
+// Places, parameters, signature.
+std::vector<AxisState> choose_axes(Workspace& workspace) {
+    std::vector<AxisState> axes;
+    const auto add = [&](const std::string& name, bool is_closed) {
+        AxisState axis;
+        axis.name = name;
+        axis.is_closed = is_closed;
+        axes.push_back(axis);
+    };
+    for (const char* name : {"x", "y", "z"})
+        add(name, false);
+    const Photons* photons = workspace.shown();
+    if (photons && photons->map.parameters)
+        for (const ParameterAxis& parameter : photons->map.parameters->axes)
+            add(parameter.name, parameter.period > 0);
+    for (const inspect::ColumnInfo& info : workspace.list_columns())
+        if (info.missing.empty() && (info.name == "signature" || (axes.size() < 6 && info.name.starts_with("primal_"))))
+            add(info.name, info.period > 0);
+    return axes;
+}
 
 void after_jump(Workspace& workspace, const char* what, const std::string& name) {
     workspace.drop_unknown_ids();
@@ -38,7 +60,7 @@ void redo(Workspace& workspace) {
 }
 
 void copy_python(Workspace& workspace) {
-    ImGui::SetClipboardText(write_python(workspace.state).c_str());
+    ImGui::SetClipboardText(write_python(complete_state(workspace)).c_str());
     workspace.say("the Python of this state is on the clipboard");
 }
 
@@ -104,19 +126,20 @@ void toggle_split(Workspace& workspace) {
 }
 
 std::optional<Bounds> find_photon_box(const Photons& photons, const Ids& ids) {
+    constexpr double OUTLIERS = 0.005; // share beyond either end that a frame of all photons leaves out
     const std::vector<float> positions = read_positions(photons.map);
-    Bounds box{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}};
-    const std::size_t count = ids ? ids->size() : photons.map.count;
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t photon = ids ? (*ids)[i] : i;
-        if (photon >= photons.map.count)
-            continue;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            box.lo[axis] = std::min(box.lo[axis], static_cast<double>(positions[3 * photon + axis]));
-            box.hi[axis] = std::max(box.hi[axis], static_cast<double>(positions[3 * photon + axis]));
-        }
+    Bounds box;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        std::vector<float> values;
+        for (std::size_t i = 0; i < (ids ? ids->size() : photons.map.count); ++i)
+            if (const std::size_t photon = ids ? (*ids)[i] : i; photon < photons.map.count)
+                values.push_back(positions[3 * photon + axis]);
+        if (values.empty())
+            return std::nullopt;
+        box.lo[axis] = inspect::find_quantile(values, ids ? 0.0 : OUTLIERS);
+        box.hi[axis] = inspect::find_quantile(values, ids ? 1.0 : 1.0 - OUTLIERS);
     }
-    return box.lo[0] <= box.hi[0] ? std::optional(box) : std::nullopt;
+    return box;
 }
 
 void frame_selection(Workspace& workspace) {
@@ -155,24 +178,23 @@ void reset_axes(Workspace& workspace) {
     });
 }
 
-std::vector<AxisState> choose_axes(Workspace& workspace) {
-    std::vector<AxisState> axes;
-    const auto add = [&](const std::string& name, bool is_closed) {
-        AxisState axis;
-        axis.name = name;
-        axis.is_closed = is_closed;
-        axes.push_back(axis);
-    };
-    for (const char* name : {"x", "y", "z"})
-        add(name, false);
-    const Photons* photons = workspace.shown();
-    if (photons && photons->map.parameters)
-        for (const ParameterAxis& parameter : photons->map.parameters->axes)
-            add(parameter.name, parameter.period > 0);
-    for (const inspect::ColumnInfo& info : workspace.list_columns())
-        if (info.missing.empty() && (info.name == "signature" || (axes.size() < 6 && info.name.starts_with("primal_"))))
-            add(info.name, info.period > 0);
-    return axes;
+std::vector<AxisState> list_axes(Workspace& workspace) {
+    const std::vector<AxisState>& chosen = workspace.state.parallel.axes;
+    return chosen.empty() && workspace.shown() ? choose_axes(workspace) : chosen;
+}
+
+StudioState complete_state(Workspace& workspace) {
+    StudioState state = workspace.state;
+    state.parallel.axes = list_axes(workspace);
+    for (AxisState& axis : state.parallel.axes) {
+        std::string missing;
+        const inspect::Column* column = axis.low == axis.high ? workspace.seek_column(axis.name, missing) : nullptr;
+        if (column) {
+            axis.low = column->low;
+            axis.high = column->high;
+        }
+    }
+    return state;
 }
 
 void toggle_keys(Workspace& workspace) {

@@ -49,7 +49,9 @@ void toggle_keys(Workspace& workspace);
 
 // Box of the photons with these ids, or of all. Nothing where there are none.
 std::optional<Bounds> find_photon_box(const Photons& photons, const Ids& ids);
-// The axes that suit the photons there are: places, parameters, signature.
-std::vector<AxisState> choose_axes(Workspace& workspace);
+// The axes shown: while nobody chose any, those that suit the photons there are.
+std::vector<AxisState> list_axes(Workspace& workspace);
+// The state with those axes written out.
+StudioState complete_state(Workspace& workspace);
 
 } // namespace photonloupe::studio

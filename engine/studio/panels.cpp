@@ -18,10 +18,11 @@
 namespace photonloupe::studio {
 namespace {
 
-constexpr float LEFT_SHARE = 0.23f;   // of the window: the script
-constexpr float RIGHT_SHARE = 0.30f;  // of what is left: loupe, relaxation, image
-constexpr float PLOT_SHARE = 0.36f;   // of the height: plots under the view
-constexpr float NUMBER_SHARE = 0.52f; // of the height: the lower panels on the right
+constexpr float LEFT_SHARE = 0.23f;       // of the window: the script
+constexpr float RIGHT_SHARE = 0.30f;      // of what is left: loupe, relaxation, image
+constexpr float PLOT_SHARE = 0.36f;       // of the height: plots under the view
+constexpr float NUMBER_SHARE = 0.52f;     // of the height: the lower panels on the right
+constexpr std::uint64_t DOCKED_FRAME = 1; // windows stand in their docks after it
 
 // The tab of the current window, by which a panel behind others is brought to the front.
 void mark_tab(Workspace& workspace, const char* name) {
@@ -72,7 +73,6 @@ void Panels::draw(Workspace& workspace) {
         m_image = std::make_unique<ImagePanel>();
     }
     workspace.wants_render = shows_render(workspace.state.view.mode);
-    workspace.wants_isotropy = workspace.state.relax.choices.has_auto_beta;
     const std::pair<const char*, std::function<void()>> panels[] = {
         {"Script", [&] { m_script->draw(workspace); }},
         {"View", [&] { m_view->draw(workspace); }},
@@ -92,7 +92,7 @@ void Panels::draw(Workspace& workspace) {
             ImGui::SetNextWindowSize(ImGui::GetIO().DisplaySize);
             flags |= ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoDocking;
         }
-        if (workspace.focus == name) {
+        if (workspace.focus == name && workspace.frame > DOCKED_FRAME) {
             ImGui::SetNextWindowFocus();
             workspace.focus.clear();
         }

@@ -68,12 +68,6 @@ std::string format(float value) {
     return text;
 }
 
-// While nobody chose axes they follow the photons' parameters; the first change makes them the user's.
-std::vector<AxisState> list_axes(Workspace& workspace) {
-    const std::vector<AxisState>& chosen = workspace.state.parallel.axes;
-    return chosen.empty() && workspace.shown() ? choose_axes(workspace) : chosen;
-}
-
 template <class Change>
 void change_axes(Workspace& workspace, const char* name, const Change& make) {
     const std::vector<AxisState> axes = list_axes(workspace);
@@ -81,6 +75,25 @@ void change_axes(Workspace& workspace, const char* name, const Change& make) {
         state.parallel.axes = axes;
         make(state.parallel.axes);
     });
+}
+
+// Zooms to the values of the photons that the plot shows.
+void fit_axis(Workspace& workspace, AxisState& axis) {
+    std::string missing;
+    const inspect::Column* column = workspace.seek_column(axis.name, missing);
+    const Ids ids = workspace.find_source(workspace.state.parallel.source);
+    if (!column || !ids)
+        return;
+    float low = INFINITY, high = -INFINITY;
+    for (const std::uint32_t id : *ids)
+        if (std::isfinite(column->values[id])) {
+            low = std::min(low, column->values[id]);
+            high = std::max(high, column->values[id]);
+        }
+    if (low < high) {
+        axis.low = low;
+        axis.high = high;
+    }
 }
 
 // The area between the axis and its density, a strip between two samples at a time.
@@ -341,6 +354,9 @@ void ParallelPanel::draw_axis_menu(Workspace& workspace) {
     ImGui::EndDisabled();
     if (ui::toggle(workspace, "Parallel coordinates/Flipped", "flipped", axis.is_flipped))
         edit("flip axis", [](AxisState& state) { state.is_flipped = !state.is_flipped; });
+    if (ui::button(workspace, "Parallel coordinates/Fit", "fit", "To the photons shown"))
+        edit("fit axis", [&](AxisState& state) { fit_axis(workspace, state); });
+    ImGui::SameLine();
     if (ui::button(workspace, "Parallel coordinates/Whole", "whole range"))
         edit("whole range", [](AxisState& state) { state.low = state.high = 0; });
     if (ui::button(workspace, "Parallel coordinates/Remove", "remove")) {
@@ -383,6 +399,13 @@ void ParallelPanel::draw_toolbar(Workspace& workspace) {
         change_axes(workspace, "add axis", [&](std::vector<AxisState>& axes) {
             axes.emplace_back();
             axes.back().name = added;
+        });
+    ImGui::SameLine();
+    if (ui::button(workspace, "Parallel coordinates/FitAll", "Fit", "Every open axis to the photons shown"))
+        change_axes(workspace, "fit axes", [&](std::vector<AxisState>& axes) {
+            for (AxisState& axis : axes)
+                if (!axis.is_closed)
+                    fit_axis(workspace, axis);
         });
     ImGui::SameLine();
     if (ui::button(workspace, "Parallel coordinates/Reset", "Reset", "The first axes again"))

@@ -71,8 +71,10 @@ std::string write_relax(const RelaxState& relax) {
            ", over_relaxation=" + write(used.over_relaxation) +
            ", limit=" + (used.limit > 0 ? write(used.limit) : "None") +
            ",\n    constraint_neighbors=" + std::to_string(used.constraint_neighbors) +
-           ", search=" + quote(used.search) + ", diffuse_flux=" + write(used.diffuse_flux) + ",\n)\nfor _ in range(" +
-           std::to_string(relax.made) + "):\n    relaxation.step()\nrelaxed = relaxation.photons\n";
+           (used.thresholds[0] != used.thresholds[1] ? ", thresholds=" + write(used.thresholds) : "") +
+           ", search=" + quote(used.search) + ", surface=" + quote(used.surface) + ", tree=" + quote(used.tree) +
+           ", diffuse_flux=" + write(used.diffuse_flux) + ",\n)\nfor _ in range(" + std::to_string(relax.made) +
+           "):\n    relaxation.step()\nrelaxed = relaxation.photons\n";
 }
 
 std::string write_render(const StudioState& state) {

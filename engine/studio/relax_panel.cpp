@@ -68,7 +68,7 @@ void draw_numbers(Workspace& workspace) {
 
 void draw_choices(Workspace& workspace) {
     const RelaxChoices& now = workspace.state.relax.choices;
-    ImGui::PushItemWidth(0.34f * ImGui::GetContentRegionAvail().x);
+    ImGui::PushItemWidth(0.28f * ImGui::GetContentRegionAvail().x);
     static constexpr const char* DESCRIPTORS[] = {"none", "gradient", "pca", "tensor", "split"};
     const int descriptor = ui::choose(workspace, "Relaxation/Descriptor", "descriptor", now.descriptor,
                                       {DESCRIPTORS[0], DESCRIPTORS[1], DESCRIPTORS[2], DESCRIPTORS[3], DESCRIPTORS[4]});
@@ -81,7 +81,7 @@ void draw_choices(Workspace& workspace) {
         edit(workspace, "constraint", [&](RelaxChoices& state) {
             state.constraint = space == 0 ? "auto" : space == 1 ? "world" : "parameter";
         });
-    const int repel = ui::choose(workspace, "Relaxation/Repel", "repulsion", now.repel, {"world", "parameter"});
+    const int repel = ui::choose(workspace, "Relaxation/Repel", "repel", now.repel, {"world", "parameter"});
     if (repel >= 0)
         edit(workspace, "repulsion", [&](RelaxChoices& state) { state.repel = repel == 0 ? "world" : "parameter"; });
     ImGui::SameLine(0.5f * ImGui::GetContentRegionAvail().x);
@@ -89,6 +89,23 @@ void draw_choices(Workspace& workspace) {
                                   "Radii of every step, or those of the step before, corrected by count");
     if (search >= 0)
         edit(workspace, "search", [&](RelaxChoices& state) { state.search = search == 0 ? "exact" : "carried"; });
+    const int surface = ui::choose(workspace, "Relaxation/Surface", "surface", now.surface, {"auto", "tangent"},
+                                   "Photons return to the surface they lie on, or move in their tangent planes");
+    if (surface >= 0)
+        edit(workspace, "surface", [&](RelaxChoices& state) { state.surface = surface == 0 ? "auto" : "tangent"; });
+    ImGui::SameLine(0.5f * ImGui::GetContentRegionAvail().x);
+    const int tree = ui::choose(workspace, "Relaxation/Tree", "tree", now.tree, {"auto", "layered", "position"},
+                                "What neighbors of a layer are sought in");
+    if (tree >= 0)
+        edit(workspace, "tree", [&](RelaxChoices& state) {
+            state.tree = tree == 0 ? "auto" : tree == 1 ? "layered" : "position";
+        });
+    std::array<float, 2> thresholds = now.thresholds;
+    if (ImGui::InputFloat2("thresholds", thresholds.data(), "%.3g"))
+        edit(workspace, "thresholds", [&](RelaxChoices& state) { state.thresholds = thresholds; });
+    ui::mark(workspace, "Relaxation/Thresholds");
+    ui::explain("Value of the descriptor that leaves a photon free, and the one that fixes it; equal: its own");
+    ImGui::SameLine(0.5f * ImGui::GetContentRegionAvail().x);
     if (ui::toggle(workspace, "Relaxation/Flux", "even out flux", now.diffuse_flux))
         edit(workspace, "even out flux", [](RelaxChoices& state) { state.diffuse_flux = !state.diffuse_flux; });
     ImGui::PopItemWidth();
@@ -110,7 +127,7 @@ void draw_curves(Workspace& workspace) {
     if (!ImPlot::BeginPlot("##steps", {-1, -1}, ImPlotFlags_NoMouseText))
         return;
     ImPlot::SetupAxes("step", nullptr, ImPlotAxisFlags_AutoFit, ImPlotAxisFlags_AutoFit);
-    ImPlot::SetupLegend(ImPlotLocation_NorthEast, ImPlotLegendFlags_Horizontal);
+    ImPlot::SetupLegend(ImPlotLocation_NorthEast);
     const int count = static_cast<int>(steps.size());
     ImPlot::PlotLine("mean move / r", numbers.data(), moves.data(), count);
     ImPlot::PlotLine("low-frequency power", numbers.data(), frequencies.data(), count);

@@ -116,7 +116,10 @@ void visit(Archive& archive, RelaxChoices& relax) {
     archive.array("over_relaxation", relax.over_relaxation, 1e3);
     archive.number("limit", relax.limit, 0, 1e6);
     archive.number("constraint_neighbors", relax.constraint_neighbors, 12, 998);
+    archive.array("thresholds", relax.thresholds, LARGEST);
     archive.choice("search", relax.search, {"exact", "carried"});
+    archive.choice("surface", relax.surface, {"auto", "tangent"});
+    archive.choice("tree", relax.tree, {"auto", "layered", "position"});
     archive.flag("diffuse_flux", relax.diffuse_flux);
 }
 

@@ -106,7 +106,10 @@ struct RelaxChoices {
     std::array<float, 2> over_relaxation{1.0f, 1.0f};
     float limit = 0.3f; // 0: none
     std::uint32_t constraint_neighbors = 50;
+    std::array<float, 2> thresholds{}; // free at, fixed at; equal: the descriptor's own
     std::string search = "exact";
+    std::string surface = "auto";
+    std::string tree = "auto";
     bool diffuse_flux = false;
     bool operator==(const RelaxChoices&) const = default;
 };

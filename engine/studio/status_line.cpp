@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The line at the bottom: device, photons, columns and their memory, milliseconds, progress with cancel; and the list
 // of keys.
+#include <algorithm>
+
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
@@ -13,17 +15,56 @@
 namespace photonloupe::studio {
 namespace {
 
+// The columns on the device, and what they take.
 std::string list_held(const PhotonMap& map) {
     std::string text;
-    const auto add = [&](bool is_held, const char* name) {
-        if (is_held)
-            text += (text.empty() ? "" : ", ") + std::string(name);
+    const auto add = [&](const char* name, std::initializer_list<const gpu::Buffer*> buffers) {
+        std::uint64_t bytes = 0;
+        for (const gpu::Buffer* buffer : buffers)
+            bytes += buffer->size_bytes();
+        char size[32];
+        std::snprintf(size, sizeof size, " %.1f MiB", static_cast<double>(bytes) / 1048576.0);
+        text += (text.empty() ? "" : ", ") + std::string(name) + size;
     };
-    add(true, "photons");
-    add(map.paths.has_value(), "paths");
-    add(map.parameters.has_value(), "parameters");
-    add(map.colors.has_value(), "colors");
+    add("photons", {&map.position_emitter, &map.normal_index, &map.power_object});
+    if (map.paths)
+        add("paths", {&map.paths->starts, &map.paths->vertices, &map.paths->normals});
+    if (map.parameters)
+        add("parameters", {&map.parameters->values});
+    if (map.colors)
+        add("colors", {&*map.colors});
     return text;
+}
+
+void draw_trace_menu(Workspace& workspace) {
+    if (ui::button(workspace, "Trace/Menu", "Photons", "How many photons are traced, and how"))
+        ImGui::OpenPopup("trace");
+    if (!ImGui::BeginPopup("trace"))
+        return;
+    const TraceState& now = workspace.state.trace;
+    const auto edit = [&](const char* name, const auto& make) {
+        workspace.change(name, [&](StudioState& state) { make(state.trace); });
+    };
+    ImGui::PushItemWidth(160 * workspace.scale);
+    int photons = static_cast<int>(now.photons), seed = static_cast<int>(now.seed);
+    if (ImGui::InputInt("photons", &photons, 10'000, 100'000, ImGuiInputTextFlags_EnterReturnsTrue))
+        edit("photons", [&](TraceState& state) {
+            state.photons = static_cast<std::uint32_t>(std::clamp(photons, 1, 1'000'000'000));
+        });
+    ui::mark(workspace, "Trace/Photons");
+    if (ImGui::InputInt("seed", &seed, 1, 10, ImGuiInputTextFlags_EnterReturnsTrue))
+        edit("seed", [&](TraceState& state) { state.seed = static_cast<std::uint32_t>(std::max(seed, 0)); });
+    ui::mark(workspace, "Trace/Seed");
+    const int emission = ui::choose(workspace, "Trace/Emission", "emission", now.emission, {"sobol", "random"});
+    if (emission >= 0)
+        edit("emission", [&](TraceState& state) { state.emission = emission == 0 ? "sobol" : "random"; });
+    const int store = ui::choose(workspace, "Trace/Store", "store", now.store, {"caustic", "indirect", "all"});
+    if (store >= 0)
+        edit("store", [&](TraceState& state) {
+            state.store = store == 0 ? "caustic" : store == 1 ? "indirect" : "all";
+        });
+    ImGui::PopItemWidth();
+    ImGui::EndPopup();
 }
 
 void draw_activity(Workspace& workspace) {
@@ -66,6 +107,8 @@ void draw_status_line(Workspace& workspace) {
     ImGui::SameLine();
     draw_export_menu(workspace);
     ImGui::SameLine();
+    draw_trace_menu(workspace);
+    ImGui::SameLine();
     ImGui::SetNextItemWidth(150 * workspace.scale);
     if (ImGui::InputTextWithHint("##open", "open a scene, map, session", &workspace.open_path,
                                  ImGuiInputTextFlags_EnterReturnsTrue))
@@ -74,7 +117,7 @@ void draw_status_line(Workspace& workspace) {
     ImGui::SameLine();
     std::string told = workspace.device.info().name.substr(0, workspace.device.info().name.find(" ("));
     if (const Photons* photons = workspace.shown())
-        told += "  |  " + std::to_string(photons->map.count) + " photons (" + list_held(photons->map) + ")";
+        told += "  |  " + std::to_string(photons->map.count) + " photons: " + list_held(photons->map);
     if (!workspace.is_offscreen)
         told += "  |  " + std::to_string(workspace.device.allocated_bytes() >> 20) + " MiB  |  frame " +
                 std::to_string(static_cast<int>(workspace.frame_milliseconds)) + " ms";
@@ -97,7 +140,7 @@ void draw_key_list(Workspace& workspace) {
     ImGui::SetNextWindowSize({0, std::min(0.9f * size.y, 720 * workspace.scale)});
     ImGui::SetNextWindowFocus();
     if (ImGui::Begin("Keys", &workspace.shows_keys, ImGuiWindowFlags_NoDocking | ImGuiWindowFlags_NoCollapse)) {
-        if (ImGui::BeginTable("##keys", 2, ImGuiTableFlags_RowBg)) {
+        if (ImGui::BeginTable("##keys", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
             const auto row = [](const std::string& keys, const std::string& about) {
                 ImGui::TableNextRow();
                 ImGui::TableNextColumn();

@@ -81,12 +81,14 @@ Studio::Studio(gpu::Device& device, const StudioOptions& options)
     m_drawing = std::make_unique<ImGuiVulkan>(device);
     m_workspace.pixels.attach(*m_drawing);
     io.DisplaySize = {static_cast<float>(options.width), static_cast<float>(options.height)};
+    m_chunk_milliseconds = device.chunk_milliseconds();
     if (!options.is_offscreen)
         device.set_chunk_milliseconds(WATCHED_CHUNK_MILLISECONDS);
 }
 
 Studio::~Studio() {
     const Current current(m_context, m_plots);
+    m_workspace.device.set_chunk_milliseconds(m_chunk_milliseconds);
     m_workspace.pixels.clear();
     m_drawing.reset();
     m_surface.reset();

@@ -32,7 +32,10 @@ Settings describe_relax(const RelaxChoices& relax, bool has_parameters) {
             {"over_relaxation", relax.over_relaxation},
             {"limit", relax.limit > 0 ? Settings(relax.limit) : Settings(nullptr)},
             {"constraint_neighbors", relax.constraint_neighbors},
+            {"thresholds", relax.thresholds[0] != relax.thresholds[1] ? Settings(relax.thresholds) : Settings(nullptr)},
             {"search", relax.search},
+            {"surface", relax.surface},
+            {"tree", relax.tree},
             {"diffuse_flux", relax.diffuse_flux}};
 }
 

@@ -9,12 +9,14 @@
 #include "core/error.h"
 #include "image/png.h"
 #include "inspect/colormap.h"
+#include "inspect/histogram.h"
 #include "studio/edit_state.h"
 
 namespace photonloupe::studio {
 namespace {
 
 constexpr const char* ENCODING = "encoding";
+constexpr const char* ISOTROPY = "isotropy";
 
 std::uint32_t pack_color(glm::vec3 srgb) {
     const auto byte = [](float value) {
@@ -35,6 +37,22 @@ std::vector<std::uint32_t> pack_encoding(const PhotonMap& map) {
                                                   255.0f)
                                      : pack_color(inspect::UNSET_COLOR));
     return colors;
+}
+
+// A few photons far out would leave the others no room: then the range is that of all but a share of them.
+void leave_outliers_out(inspect::Column& column) {
+    constexpr double SHARE = 0.005, MOST_ROOM = 3;
+    const double low = inspect::find_quantile(column.values, SHARE);
+    const double high = inspect::find_quantile(column.values, 1 - SHARE);
+    if (high > low && column.high - column.low > MOST_ROOM * (high - low)) {
+        column.low = static_cast<float>(low);
+        column.high = static_cast<float>(high);
+    }
+}
+
+bool is_parameter(const PhotonMap& map, const std::string& name) {
+    return map.parameters && std::any_of(map.parameters->axes.begin(), map.parameters->axes.end(),
+                                         [&](const ParameterAxis& axis) { return axis.name == name; });
 }
 
 std::vector<std::uint32_t> pack_column(const inspect::Column& column) {
@@ -65,7 +83,17 @@ const inspect::Column& Workspace::find_column(const std::string& name, Photons* 
     const auto found = m_columns.find(key);
     if (found != m_columns.end())
         return found->second;
-    return m_columns[key] = inspect::find_column(bench, *photons, name);
+    // Neighbours of every photon in parameter space take too long for a frame.
+    if (name == ISOTROPY && photons->map.parameters) {
+        wants_isotropy = true;
+        if (!results.isotropy)
+            throw Error("isotropy is being measured");
+        return m_columns[key] = {name, "isotropy t", results.isotropy->values, 0, 1};
+    }
+    inspect::Column column = inspect::find_column(bench, *photons, name);
+    if (!is_parameter(photons->map, name)) // bounds of parameters were declared
+        leave_outliers_out(column);
+    return m_columns[key] = std::move(column);
 }
 
 const inspect::Column* Workspace::seek_column(const std::string& name, std::string& missing, Photons* photons) {
@@ -123,6 +151,9 @@ void Workspace::take_photons(std::shared_ptr<const Scene> scene, std::shared_ptr
     results.scene = std::move(scene);
     results.photons = std::move(photons);
     results.relaxed.reset();
+    results.isotropy.reset();
+    wants_isotropy = false;
+    done.erase("isotropy");
     results.steps.clear();
     done.erase("relax");
     ++results.photons_version;
@@ -148,6 +179,12 @@ void Workspace::drop_unknown_ids() {
     select(keep_known(state.selection));
     for (auto& [name, ids] : state.named)
         ids = keep_known(ids);
+}
+
+void Workspace::take_isotropy(IsotropyResult isotropy) {
+    results.isotropy = std::move(isotropy);
+    state.histogram.threshold = static_cast<float>(results.isotropy->threshold);
+    ++results.photons_version; // views of the column are drawn anew
 }
 
 void Workspace::take_relaxed(std::shared_ptr<Photons> photons, std::vector<StepResult> steps, double beta) {

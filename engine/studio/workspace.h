@@ -73,12 +73,12 @@ struct Workspace {
     std::string open_path;  // in the status line's field
     std::string message;    // the last thing that went wrong, or right; empty: none
     bool message_is_error = false;
-    bool wants_render = false; // the Image panel's
-    bool wants_isotropy = false;
+    bool wants_render = false;   // the Image panel's
+    bool wants_isotropy = false; // whoever asked for the column
     bool shows_keys = false;
-    std::string focus;      // a panel to bring to the front; empty: none
-    std::string solo;       // the only panel, filling the window: exports; empty: all
-    bool is_settled = true; // views have nothing left to refine
+    std::string focus = "Relaxation"; // a panel to bring to the front; empty: none
+    std::string solo;                 // the only panel, filling the window: exports; empty: all
+    bool is_settled = true;           // views have nothing left to refine
 
     std::optional<inspect::LoupeView> loupe; // what it sees now
     std::string loupe_missing;               // why it sees nothing
@@ -128,6 +128,7 @@ struct Workspace {
     void take_photons(std::shared_ptr<const Scene> scene, std::shared_ptr<Photons> photons);
     void take_relaxed(std::shared_ptr<Photons> photons, std::vector<StepResult> steps, double beta);
 
+    void take_isotropy(IsotropyResult isotropy);
     // Ids that the map does not have leave selections and pins: of sessions of another map.
     void drop_unknown_ids();
 

@@ -98,6 +98,7 @@ class Requests:
             path = str(Path(scene).absolute())
             # What is wrong with it is said before the old one goes.
             self._stages.scene = pl.load_scene(path)
+        self._native.forget_work("trace")  # the file may have changed
         trace: dict[str, Any] = {"scene": str(self._stages.scene.path), "map": ""}
         if photons is not None:
             trace["photons"] = photons
@@ -131,8 +132,10 @@ class Requests:
         """Write the parallel coordinates as they are chosen as an SVG file."""
         if name != "Parallel coordinates":
             raise ArgumentError(f"only parallel coordinates are written as SVG; export {name} as .png")
-        state = json.loads(self._native.state())["parallel"]
-        photons = self._stages.relaxed or self._stages.photons
+        whole = json.loads(self._native.complete_state())
+        state = whole["parallel"]
+        shows_relaxed = whole["view"]["shows_relaxed"] and self._native.has_relaxed()
+        photons = self._stages.relaxed if shows_relaxed else self._stages.photons
         if photons is None or not state["axes"]:
             raise ArgumentError("there is nothing to plot yet; open a scene and draw a frame")
         axes = [

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How evenly photons lie, on any density: what the studio plots for each step of a relaxation."""
+"""How evenly photons lie, whatever their density: what the studio plots for each step of a relaxation."""
 
 from __future__ import annotations
+
+import math
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +12,8 @@ from photonloupe.photons import PhotonMap
 
 # Photons looked at; neighbors of the noisy and of the smooth estimate.
 SAMPLE = 1000
-FEW, MANY = 20, 400
+FEW, MANY = 20, 100
+_FEWEST_PHOTONS = 2 * MANY
 # Standard deviation of a normal distribution in units of the median absolute deviation.
 _DEVIATION = 1.4826
 
@@ -18,9 +21,10 @@ _DEVIATION = 1.4826
 def measure_spread(photons: PhotonMap, seed: int = 0) -> tuple[float, float]:
     """Measure low-frequency power and noise of the density around a sample of the photons.
 
-    Low-frequency power is k Var(r_k²/r_m²) over its value for random points (1 for white noise): how much the area
-    that k photons take varies beside the area of m = 400 around them, k = 50. Noise is the relative deviation of the
-    Epanechnikov estimate of 20 photons from that of 400. Both are medians' deviations, so that edges don't count.
+    Low-frequency power is the variance of log r₂₅² - 2 log r₅₀² + log r₁₀₀², r_k the distance to the k-th neighbor,
+    over its value for random points, ψ₁(25) - ψ₁(100): 1 for white noise; a density that rises as a power of the
+    distance drops out. Noise is the relative deviation of the Epanechnikov estimate of 20 photons from that of 100.
+    Both by medians, so that few edges don't count.
 
     Parameters
     ----------
@@ -32,7 +36,7 @@ def measure_spread(photons: PhotonMap, seed: int = 0) -> tuple[float, float]:
     Returns
     -------
     tuple of float
-        Low-frequency power, noise; NaN with fewer than 500 photons.
+        Low-frequency power, noise; NaN with fewer than 200 photons.
 
     Examples
     --------
@@ -41,32 +45,30 @@ def measure_spread(photons: PhotonMap, seed: int = 0) -> tuple[float, float]:
     >>> spots = np.random.default_rng(0).random((20_000, 3)) * [1, 0, 1]
     >>> photons = pl.PhotonMap.from_arrays(positions=spots, normals=[[0, 1, 0]] * 20_000, power=np.ones((20_000, 3)))
     >>> power, noise = measure_spread(photons)
-    >>> bool(0.7 < power < 1.3), bool(0.2 < noise < 0.35)
+    >>> bool(0.8 < power < 1.2), bool(0.2 < noise < 0.3)
     (True, True)
     """
-    if len(photons) < MANY + 100:
-        return float("nan"), float("nan")
+    if len(photons) < _FEWEST_PHOTONS:
+        return math.nan, math.nan
     ids = np.random.default_rng(seed).choice(len(photons), min(SAMPLE, len(photons)), replace=False)
     squared = photons.neighbors(np.sort(ids), MANY + 1)[1].astype(np.float64) ** 2
-    middle = 50
-    areas = squared[:, middle - 1] / squared[:, MANY - 1] * (MANY / middle)
-    # Of random points the ratio is beta-distributed: its variance is that of k of m, (1 - k/m)/k relative.
-    power = _measure_deviation(areas) ** 2 * middle / (1 - middle / MANY)
-    few, many = _estimate(squared, FEW), _estimate(squared, MANY)
-    known = many > 0
-    return float(power), float(_measure_deviation(few[known] / many[known]))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        bend = np.log(squared[:, 24]) - 2 * np.log(squared[:, 49]) + np.log(squared[:, 99])
+        ratio = _estimate(squared, FEW) / _estimate(squared, MANY)
+    return _measure_deviation(bend) ** 2 / (_trigamma(25) - _trigamma(100)), _measure_deviation(ratio)
 
 
 def _estimate(squared: NDArray[np.float64], k: int) -> NDArray[np.float64]:
     reach = squared[:, k]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return 2 / (np.pi * reach) * (1 - squared[:, :k] / reach[:, None]).sum(axis=1)
+    return 2 / (np.pi * reach) * (1 - squared[:, :k] / reach[:, None]).sum(axis=1)
 
 
 def _measure_deviation(values: NDArray[np.float64]) -> float:
-    """Relative standard deviation, by medians."""
+    """Standard deviation, by medians."""
     values = values[np.isfinite(values)]
-    if len(values) == 0:
-        return float("nan")
-    middle = np.median(values)
-    return float(_DEVIATION * np.median(np.abs(values - middle)) / middle) if middle > 0 else float("nan")
+    return float(_DEVIATION * np.median(np.abs(values - np.median(values)))) if len(values) else math.nan
+
+
+def _trigamma(k: int) -> float:
+    """ψ₁ of a whole number, the sum of 1/n² from k on."""
+    return math.pi**2 / 6 - sum(1 / n**2 for n in range(1, k))

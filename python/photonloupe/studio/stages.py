@@ -64,7 +64,7 @@ class Stages:
 
     def _trace(self, settings: dict[str, Any], progress: Progress) -> None:
         path = settings["scene"]
-        if self.scene is None or str(self.scene.path) != path or _has_changed(self.scene):
+        if self.scene is None or str(self.scene.path) != path:
             self.scene = pl.load_scene(path)
         photons = pl.trace_photons(
             self.scene,
@@ -171,6 +171,7 @@ class Stages:
     def _measure_isotropy(self, settings: dict[str, Any], progress: Progress) -> None:
         assert self.photons is not None
         beta = pl.optimal_beta(self.photons, progress=progress)
+        self._native.deliver_isotropy(np.ascontiguousarray(beta.isotropy.values), float(beta), beta.t_beta)
         self._native.say(f"β = {float(beta):.4g} from t_β = {beta.t_beta:.4g}", False)
 
     def _find_shown(self, settings: dict[str, Any]) -> pl.PhotonMap:
@@ -215,14 +216,6 @@ class Stages:
             difference.relmse,
             difference.flip,
         )
-
-
-def _has_changed(scene: pl.Scene) -> bool:
-    """Tell whether a scene's file is newer than what was read of it."""
-    try:
-        return pl.load_scene(scene.path).hash != scene.hash
-    except PhotonLoupeError:
-        return False  # the last good state stays; loading it anew says what is wrong
 
 
 def _make_script(settings: dict[str, Any]) -> pl.Script:
