@@ -192,6 +192,13 @@ void bind_state(nb::class_<Studio>& type) {
                  const auto& loupe = self.workspace().loupe;
                  return own_array(loupe ? std::vector<std::uint32_t>(loupe->ids) : std::vector<std::uint32_t>{});
              })
+        .def(
+            "paths",
+            [](const Studio& self) {
+                const studio::StudioState& state = self.workspace().state;
+                return std::pair(state.trace.scene, state.script.path);
+            },
+            "Scene and script; empty: none.")
         .def("has_relaxed", [](const Studio& self) { return self.workspace().has_relaxed(); })
         .def("version", [](Studio& self) { return self.workspace().selection_version; })
         .def("selection", &read_selection)

@@ -339,7 +339,8 @@ void ParallelPanel::draw_axis_menu(Workspace& workspace) {
     const auto edit = [&](const char* name, const auto& make) {
         change_axes(workspace, name, [&](std::vector<AxisState>& axes) {
             make(axes[at]);
-            workspace.select(find_brushed(workspace));
+            if (!axes[at].brushes.empty())
+                workspace.select(find_brushed(workspace));
         });
     };
     const AxisState axis = list_axes(workspace)[at];
@@ -360,8 +361,11 @@ void ParallelPanel::draw_axis_menu(Workspace& workspace) {
     if (ui::button(workspace, "Parallel coordinates/Whole", "whole range"))
         edit("whole range", [](AxisState& state) { state.low = state.high = 0; });
     if (ui::button(workspace, "Parallel coordinates/Remove", "remove")) {
-        change_axes(workspace, "remove axis",
-                    [&](std::vector<AxisState>& axes) { axes.erase(axes.begin() + static_cast<std::ptrdiff_t>(at)); });
+        change_axes(workspace, "remove axis", [&](std::vector<AxisState>& axes) {
+            axes.erase(axes.begin() + static_cast<std::ptrdiff_t>(at));
+            if (!axis.brushes.empty())
+                workspace.select(find_brushed(workspace));
+        });
         ImGui::CloseCurrentPopup();
     }
     ImGui::EndPopup();

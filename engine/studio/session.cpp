@@ -195,8 +195,12 @@ public:
         text(name, value, 4096);
         if (value.find('\0') != std::string::npos)
             refuse_field(place(name), "must not hold a zero byte");
-        if (!value.empty() && !m_folder.empty() && std::filesystem::path(value).is_relative())
-            value = (m_folder / value).lexically_normal().string();
+        if (value.empty() || m_folder.empty() || std::filesystem::path(value).is_absolute())
+            return;
+        const std::filesystem::path below = std::filesystem::path(value).lexically_normal();
+        if (*below.begin() == "..")
+            refuse_field(place(name), "must not leave the session's folder");
+        value = (m_folder / below).string();
     }
     void ids(const char* name, Ids& value) {
         const Json* found = find(name);

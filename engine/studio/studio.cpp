@@ -113,7 +113,6 @@ void Studio::take_deliveries() {
     }
     for (const auto& change : deliveries)
         change(m_workspace);
-    m_workspace.drop_unwanted();
 }
 
 bool Studio::has_input_left() const {
@@ -136,6 +135,7 @@ void Studio::begin_frame() {
     io.DisplayFramebufferScale = {1, 1};
     m_drawing->begin_frame();
     ImGui::NewFrame();
+    m_workspace.drop_unwanted();
     m_workspace.widgets.clear();
     m_workspace.is_settled = true;
     ++m_workspace.frame;

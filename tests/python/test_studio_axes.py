@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ import pytest
 import photonloupe as pl
 from studio_driver import (
     TRAJECTORY,
+    borrow,
     choose,
     crop,
     drag_slider,
@@ -26,12 +28,17 @@ from studio_driver import (
 FIRST = ["x", "y", "z", "right", "up"]
 
 
+@pytest.fixture(scope="module")
+def opened() -> Iterator[pl.Studio]:
+    with open_ring(TRAJECTORY) as studio:
+        yield studio
+
+
 @pytest.fixture
-def studio() -> Any:
+def studio(opened: pl.Studio) -> Iterator[pl.Studio]:
     """Plot all photons of the ring with their trajectories."""
-    with open_ring(TRAJECTORY) as opened:
-        choose(opened, "Parallel coordinates/Source", "all")
-        yield opened
+    with borrow(opened, parallel={"source": "all"}) as lent:
+        yield lent
 
 
 def list_axes(studio: pl.Studio) -> list[str]:
@@ -161,6 +168,15 @@ def test_removing_a_brushed_axis_takes_its_part_of_the_selection(studio: pl.Stud
     np.testing.assert_array_equal(studio.selection, np.flatnonzero((z >= low) & (z <= high)))
 
 
+@pytest.mark.parametrize("entry", ["Closed", "Flipped", "Whole", "Remove"])
+def test_editing_an_axis_without_brushes_leaves_the_selection(studio: pl.Studio, entry: str) -> None:
+    studio.selection = [1, 2]
+    studio.frame()
+    press_in_menu(studio, "x", entry)
+    assert studio.selection is not None
+    assert studio.selection.tolist() == [1, 2]
+
+
 def test_same_column_may_be_added_twice(studio: pl.Studio) -> None:
     choose(studio, "Parallel coordinates/Add", "x")
     assert [axis["name"] for axis in read_state(studio)["parallel"]["axes"]].count("x") == 2
@@ -178,8 +194,8 @@ def test_density_and_tension_change_the_plot(studio: pl.Studio, widget: str, fie
     assert not np.array_equal(crop(studio, "Parallel coordinates/Plot"), plot)
 
 
-def test_curves_are_colored_by_a_column() -> None:
-    with open_ring(TRAJECTORY) as studio:
+def test_curves_are_colored_by_a_column(opened: pl.Studio) -> None:
+    with borrow(opened) as studio:
         move_to(studio, "View/Picture", 0.5, 0.6)
         plot = crop(studio, "Parallel coordinates/Plot")
         choose(studio, "Parallel coordinates/Color", "z")
@@ -187,8 +203,8 @@ def test_curves_are_colored_by_a_column() -> None:
         assert not np.array_equal(crop(studio, "Parallel coordinates/Plot"), plot)
 
 
-def test_plot_follows_the_loupe() -> None:
-    with open_ring(TRAJECTORY) as studio:
+def test_plot_follows_the_loupe(opened: pl.Studio) -> None:
+    with borrow(opened) as studio:
         move_to(studio, "View/Picture", 0.5, 0.6)
         plot = crop(studio, "Parallel coordinates/Plot")
         move_to(studio, "View/Picture", 0.4, 0.4)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -11,8 +12,8 @@ import pytest
 import photonloupe as pl
 from studio_driver import (
     TRAJECTORY,
+    borrow,
     aim_loupe,
-    choose,
     crop,
     drag_within,
     find_place,
@@ -42,12 +43,17 @@ def mask_brushes(studio: pl.Studio) -> np.ndarray:
     return mask
 
 
+@pytest.fixture(scope="module")
+def opened() -> Iterator[pl.Studio]:
+    with open_ring(TRAJECTORY) as studio:
+        yield studio
+
+
 @pytest.fixture
-def studio() -> Any:
+def studio(opened: pl.Studio) -> Iterator[pl.Studio]:
     """Plot all photons of the ring with their trajectories."""
-    with open_ring(TRAJECTORY) as opened:
-        choose(opened, "Parallel coordinates/Source", "all")
-        yield opened
+    with borrow(opened, parallel={"source": "all"}) as lent:
+        yield lent
 
 
 def test_brush_selects_what_a_mask_selects(studio: pl.Studio) -> None:
@@ -82,8 +88,8 @@ def test_brushes_of_several_axes_are_both_required(studio: pl.Studio) -> None:
     np.testing.assert_array_equal(studio.selection, np.flatnonzero(mask_brushes(studio)))
 
 
-def test_brush_over_the_loupe_selects_among_its_photons() -> None:
-    with open_ring(TRAJECTORY) as studio:
+def test_brush_over_the_loupe_selects_among_its_photons(opened: pl.Studio) -> None:
+    with borrow(opened) as studio:
         aim_loupe(studio, (0.0, 0.0, -0.3))
         seen = np.sort(studio.loupe_ids)
         brush(studio, "x", 0.0, 0.5)
@@ -126,7 +132,6 @@ def test_selection_lights_up_in_the_plots(studio: pl.Studio) -> None:
 
 def test_unselected_photons_stay_as_context(studio: pl.Studio) -> None:
     """Focus and context: what is not selected is still drawn, in grey."""
-    choose(studio, "Parallel coordinates/Source", "all")
     studio.selection = [0]
     studio.frame()
     plot = crop(studio, "Parallel coordinates/Plot")[40:-40].astype(int)

@@ -12,6 +12,7 @@ import photonloupe as pl
 from studio_driver import (
     TRAJECTORY,
     aim_loupe,
+    change_state,
     choose,
     crop,
     drag_within,
@@ -93,8 +94,10 @@ def test_wheel_changes_the_number_of_photons() -> None:
 def test_wheel_stays_within_one_and_a_thousand() -> None:
     with open_ring() as studio:
         move_to(studio, "View/Picture")
-        for steps, k in ((1, 1000), (-1, 1)):
-            for _ in range(40):
+        loupe = read_state(studio)["loupe"]
+        for steps, begin, k in ((1, 900, 1000), (-1, 2, 1)):
+            change_state(studio, loupe=loupe | {"k": begin})
+            for _ in range(3):
                 studio.wheel(steps)
                 studio.frame()
             assert read_state(studio)["loupe"]["k"] == len(studio.loupe_ids) == k

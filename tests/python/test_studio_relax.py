@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Iterator
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ import pytest
 import photonloupe as pl
 from studio_driver import (
     TRAJECTORY,
-    change_state,
+    borrow,
     choose,
     crop,
     drag_slider,
@@ -22,20 +22,28 @@ from studio_driver import (
 )
 
 
+@pytest.fixture(scope="module")
+def opened() -> Iterator[pl.Studio]:
+    with open_ring(TRAJECTORY) as studio:
+        yield studio
+
+
 @pytest.fixture
-def studio() -> Any:
+def studio(opened: pl.Studio) -> Iterator[pl.Studio]:
     """Show the relaxation of the ring with its trajectories; a run is of three steps."""
-    with open_ring(TRAJECTORY) as opened:
-        change_state(opened, relax={"choices": read_state(opened)["relax"]["choices"] | {"steps": 3}})
-        show_panel(opened, "Relaxation")
-        yield opened
+    choices = read_state(opened)["relax"]["choices"] | {"steps": 3}
+    with borrow(opened, relax={"choices": choices}) as lent:
+        show_panel(lent, "Relaxation")
+        yield lent
 
 
 def relax_alike(studio: pl.Studio, steps: int) -> pl.PhotonMap:
     """Step as Python does, with what the session says of the settings."""
     used = read_state(studio)["relax"]["used"]
     beta = "auto" if used.pop("has_auto_beta") else used.pop("beta")
-    relaxation = pl.Relaxation(studio.photons, **{**used, "beta": beta, "limit": used["limit"] or None})
+    low, high = used["thresholds"]
+    told = {"beta": beta, "limit": used["limit"] or None, "thresholds": None if low == high else (low, high)}
+    relaxation = pl.Relaxation(studio.photons, **{**used, **told})
     for _ in range(steps):
         relaxation.step()
     return relaxation.photons

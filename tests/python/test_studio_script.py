@@ -174,12 +174,3 @@ def test_examples_are_opened_from_the_menu() -> None:
         assert "tortuosity" in script["text"]
         studio.key("ctrl+enter")
         assert list(studio.photons.parameter_names) == ["tortuosity"]
-
-
-def test_script_that_faults_says_so_in_the_status_line() -> None:
-    with open_ring(SHADES) as studio:
-        before = read_colors(studio)
-        write_in_editor(studio, "i = 0; while (i < 1) { i = i * 1; }")
-        studio.key("ctrl+enter")
-        assert studio.message.startswith("script: ")
-        np.testing.assert_array_equal(read_colors(studio), before)

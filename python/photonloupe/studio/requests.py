@@ -24,6 +24,8 @@ SESSION = ".loupe"
 IMAGES = (".exr", ".png")
 _DEFAULT_SESSION = "session.loupe"
 _LARGEST_SCRIPT = 1 << 20
+# Of a file that is not there.
+_GONE = (0, -1)
 
 
 class Requests:
@@ -34,7 +36,7 @@ class Requests:
         self._export = export
         self._stages = stages
         self._session = ""
-        self._stamps: dict[str, float] = {}
+        self._stamps: dict[str, tuple[int, int]] = {}
 
     def serve(self, worker: Worker) -> bool:
         """Serve all that waits; True: something was."""
@@ -93,13 +95,13 @@ class Requests:
         """Open a scene and trace it."""
         if isinstance(scene, pl.Scene):
             self._stages.scene = scene
-            path = str(scene.path)
+            path = str(Path(scene.path).absolute())
         else:
             path = str(Path(scene).absolute())
             # What is wrong with it is said before the old one goes.
             self._stages.scene = pl.load_scene(path)
         self._native.forget_work("trace")  # the file may have changed
-        trace: dict[str, Any] = {"scene": str(self._stages.scene.path), "map": ""}
+        trace: dict[str, Any] = {"scene": path, "map": ""}
         if photons is not None:
             trace["photons"] = photons
         self._change("open scene", {"trace": trace, "view": {"camera": {"is_set": False}}})
@@ -154,21 +156,30 @@ class Requests:
         plot = pl.inspect.parallel_coordinates(photons, axes, selection=ids, size=size, tension=state["tension"])
         plot.save_svg(path)
 
-    def watch_files(self) -> None:
-        """Open files again that changed on the disk; what is wrong with one leaves the last good state."""
+    def watch_files(self) -> bool:
+        """Open files again that changed on the disk; what is wrong with one leaves the last good state.
+
+        True: there was a change.
+        """
+        changed = False
+        for path in self._native.paths():
+            if path and path not in self._stamps:
+                self._watch(path)  # of a session, an example or an undo
         for path, stamp in list(self._stamps.items()):
             now = _find_stamp(path)
-            if now in (stamp, 0.0):
+            if now in (stamp, _GONE):
                 continue
             self._stamps[path] = now
-            state = json.loads(self._native.state())
+            scene, script = self._native.paths()
             try:
-                if path == state["script"]["path"]:
+                if path == script:
                     self.open_script(Path(path), runs=True)
-                elif path == state["trace"]["scene"]:
+                elif path == scene:
                     self.open_scene(path, None)
             except (PhotonLoupeError, OSError) as error:
                 self._native.say(f"changed on the disk: {describe_error(error)}", True)
+            changed = True
+        return changed
 
     def _watch(self, path: str) -> None:
         self._stamps[path] = _find_stamp(path)
@@ -214,8 +225,9 @@ def _read_script(path: Path) -> str:
     return path.read_text(encoding="utf-8", errors="replace")
 
 
-def _find_stamp(path: str) -> float:
+def _find_stamp(path: str) -> tuple[int, int]:
     try:
-        return Path(path).stat().st_mtime
-    except OSError:
-        return 0.0
+        found = Path(path).stat()
+    except (OSError, ValueError):
+        return _GONE
+    return found.st_mtime_ns, found.st_size

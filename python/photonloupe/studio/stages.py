@@ -64,7 +64,7 @@ class Stages:
 
     def _trace(self, settings: dict[str, Any], progress: Progress) -> None:
         path = settings["scene"]
-        if self.scene is None or str(self.scene.path) != path:
+        if self.scene is None or str(Path(self.scene.path).absolute()) != path:
             self.scene = pl.load_scene(path)
         photons = pl.trace_photons(
             self.scene,

@@ -137,13 +137,21 @@ class Studio:
         """
         self._requests.open_file(os.fspath(path))
 
+    def watch_files(self) -> None:
+        """Open the scene and the script again if their files changed on the disk; a window does so by itself.
+
+        What is wrong with a file is said in the status line; the last good state stays.
+        """
+        if self._requests.watch_files():
+            self.frame()
+
     def run(self, frames: int | None = None) -> None:
         """Draw frames until the window is closed, or so many."""
         drawn = 0
         while not self.should_close and (frames is None or drawn < frames):
             self.frame()
             drawn += 1
-            self._requests.watch_files()
+            self.watch_files()
             if self._autosave is not None:
                 self._autosave.save_when_due()
             self._native.wait(0.05 if self._worker.is_busy else 0.5)
