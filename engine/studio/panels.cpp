@@ -27,8 +27,9 @@ constexpr std::uint64_t DOCKED_FRAME = 1; // windows stand in their docks after 
 // The tab of the current window, by which a panel behind others is brought to the front.
 void mark_tab(Workspace& workspace, const char* name) {
     const ImGuiWindow& window = *ImGui::GetCurrentWindow();
-    const ImRect& tab = window.DC.DockTabItemRect;
-    if (window.DockIsActive)
+    ImRect tab = window.DC.DockTabItemRect;
+    tab.ClipWith(ImRect({0, 0}, ImGui::GetIO().DisplaySize));
+    if (window.DockIsActive && tab.GetWidth() > 0)
         workspace.widgets[std::string("Tab/") + name] = {tab.Min.x, tab.Min.y, tab.GetWidth(), tab.GetHeight()};
 }
 

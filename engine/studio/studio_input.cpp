@@ -118,6 +118,9 @@ bool Studio::report_progress(const std::string& stage, double fraction) {
 void Studio::end_job(const Job& job, const std::string& error) {
     deliver([job, error](Workspace& workspace) {
         workspace.done[job.kind] = job.key;
+        // Photons are traced or loaded: one takes the other's place.
+        if (job.kind == "trace" || job.kind == "map")
+            workspace.done.erase(job.kind == "trace" ? "map" : "trace");
         if (!error.empty())
             workspace.say(error, true);
     });

@@ -25,7 +25,7 @@ def small() -> Iterator[pl.Studio]:
 def write_lamp(folder: Path) -> Path:
     """A lamp over a floor, with a mirror above that makes a caustic."""
     folder.mkdir(exist_ok=True)
-    return write_scene(folder, "lamp", lambda writer: writer.add_mesh("mirror", build_quad(0.5, 2.0), make_mirror("m")))
+    return write_scene(folder, "lamp", lambda writer: writer.add_mesh("mirror", build_quad(0.5, 2.0), make_mirror("m", (0.9, 0.9, 0.9))))
 
 
 def test_dropped_scene_is_traced(tmp_path: Path) -> None:
@@ -80,7 +80,7 @@ def test_dropped_session_is_opened(small: pl.Studio, tmp_path: Path) -> None:
 
 
 def test_dropped_picture_is_the_reference_and_is_compared(tmp_path: Path) -> None:
-    with open_ring(size=(900, 700)) as studio:
+    with open_ring(size=(1200, 800)) as studio:
         show_panel(studio, "Image")
         assert studio.rendered is not None
         studio.rendered.save(tmp_path / "same.exr")
@@ -107,7 +107,7 @@ def test_nonsense_is_refused_with_a_word(small: pl.Studio, tmp_path: Path, name:
 
 @pytest.mark.parametrize("suffix", [".gltf", ".glb", ".photon", ".loupe", ".exr", ".png"])
 def test_damaged_file_is_refused_and_the_photons_stay(tmp_path: Path, suffix: str) -> None:
-    with open_ring(size=(900, 700)) as studio:
+    with open_ring(size=(1200, 800)) as studio:
         show_panel(studio, "Image")
         path = tmp_path / f"damaged{suffix}"
         path.write_bytes(np.random.default_rng(0).bytes(2_000))
