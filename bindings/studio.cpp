@@ -182,7 +182,7 @@ void bind_state(nb::class_<Studio>& type) {
              [](Studio& self, const std::string& path) { studio::save_session(path, self.workspace().state); })
         .def("load_session",
              [](Studio& self, const std::string& path) { self.set_state("open session", studio::load_session(path)); })
-        .def("python", [](Studio& self) { return studio::write_python(studio::complete_state(self.workspace())); })
+        .def("python", [](Studio& self) { return studio::write_program(self.workspace()); })
         .def("complete_state",
              [](Studio& self) { return studio::write_state(studio::complete_state(self.workspace()), {}); })
         .def("message",

@@ -117,7 +117,7 @@ private:
     std::string m_progress_stage;
     double m_progress = 0;
     double m_chunk_milliseconds = 0; // of the device before the studio was opened
-    std::uint32_t m_draws_left = 0; // frames until nothing moves any more
+    std::uint32_t m_draws_left = 0;  // frames until nothing moves any more
 };
 
 } // namespace photonloupe::studio
