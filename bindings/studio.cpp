@@ -203,6 +203,7 @@ void bind_studio(nb::module_& module) {
     nb::class_<Studio> type(module, "Studio");
     type.def("frame", &Studio::frame, nb::call_guard<nb::gil_scoped_release>())
         .def("wait", &Studio::wait, nb::call_guard<nb::gil_scoped_release>())
+        .def("hide", &Studio::hide)
         .def_prop_ro("should_close", &Studio::should_close)
         .def_prop_ro("size", [](const Studio& self) { return std::pair(self.width(), self.height()); })
         .def("image", [](Studio& self) { return take_pixels(self.read_image(), self.width(), self.height()); })
