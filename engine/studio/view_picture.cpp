@@ -74,6 +74,16 @@ std::vector<std::uint32_t> paint(const inspect::CellImage& cells, std::span<cons
     return pixels;
 }
 
+// Whether the photons lack the colors that the mode shows them in.
+bool find_what_is_missing(Workspace& workspace, Photons& photons, std::string& missing) {
+    const ViewState& view = workspace.state.view;
+    if (view.mode == ViewMode::map)
+        workspace.seek_column(view.map_column, missing, &photons);
+    if (view.mode == ViewMode::colored_points && !photons.map.colors)
+        missing = "the photons have no false colors; run a script that calls setPhotonColourEncoding";
+    return !missing.empty();
+}
+
 } // namespace
 
 bool shows_render(ViewMode mode) {
@@ -195,6 +205,8 @@ void ViewPicture::update(Workspace& workspace, bool relaxed, std::uint32_t width
         draw_render(workspace, missing);
         break;
     default:
+        if (find_what_is_missing(workspace, *photons, missing))
+            break;
         draw_points(workspace, *photons, columns, rows);
     }
     m_missing = missing;
