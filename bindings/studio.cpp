@@ -192,6 +192,7 @@ void bind_state(nb::class_<Studio>& type) {
                  const auto& loupe = self.workspace().loupe;
                  return own_array(loupe ? std::vector<std::uint32_t>(loupe->ids) : std::vector<std::uint32_t>{});
              })
+        .def("has_relaxed", [](const Studio& self) { return self.workspace().has_relaxed(); })
         .def("version", [](Studio& self) { return self.workspace().selection_version; })
         .def("selection", &read_selection)
         .def("select", &select, nb::arg("ids").none());

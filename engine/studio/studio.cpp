@@ -114,6 +114,7 @@ void Studio::take_deliveries() {
     }
     for (const auto& change : deliveries)
         change(m_workspace);
+    m_workspace.drop_unwanted();
 }
 
 bool Studio::has_input_left() const {

@@ -194,6 +194,13 @@ void Workspace::take_relaxed(std::shared_ptr<Photons> photons, std::vector<StepR
     drop_caches();
 }
 
+void Workspace::drop_unwanted() {
+    if (!results.relaxed || state.relax.is_wanted())
+        return;
+    take_relaxed(nullptr, {}, 0);
+    done.erase("relax");
+}
+
 void Workspace::drop_caches() {
     m_columns.clear();
     m_colors.clear();
