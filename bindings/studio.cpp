@@ -182,7 +182,7 @@ void bind_state(nb::class_<Studio>& type) {
              [](Studio& self, const std::string& path) { studio::save_session(path, self.workspace().state); })
         .def("load_session",
              [](Studio& self, const std::string& path) { self.set_state("open session", studio::load_session(path)); })
-        .def("python", [](Studio& self) { return studio::write_python(studio::complete_state(self.workspace())); })
+        .def("python", [](Studio& self) { return studio::write_program(self.workspace()); })
         .def("complete_state",
              [](Studio& self) { return studio::write_state(studio::complete_state(self.workspace()), {}); })
         .def("message",
@@ -211,6 +211,7 @@ void bind_studio(nb::module_& module) {
     nb::class_<Studio> type(module, "Studio");
     type.def("frame", &Studio::frame, nb::call_guard<nb::gil_scoped_release>())
         .def("wait", &Studio::wait, nb::call_guard<nb::gil_scoped_release>())
+        .def("hide", &Studio::hide)
         .def_prop_ro("should_close", &Studio::should_close)
         .def_prop_ro("size", [](const Studio& self) { return std::pair(self.width(), self.height()); })
         .def("image", [](Studio& self) { return take_pixels(self.read_image(), self.width(), self.height()); })

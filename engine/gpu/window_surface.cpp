@@ -162,6 +162,7 @@ void WindowSurface::present(Texture& picture) {
         destroy();
     else
         check(result, "vkQueuePresentKHR");
+    gpu.instance->require_silent_validation();
 }
 
 } // namespace photonloupe::gpu

@@ -50,6 +50,20 @@ double find_bandwidth(std::vector<double>& values) {
     return 0.9 * (range > 0 ? std::min(deviation, range) : deviation) * std::pow(count, -0.2);
 }
 
+// Values that go round, each by the turn that brings it nearest to their circular mean: two sides of one cluster that
+// the axis' ends part are then neighbors again.
+void unwind(std::vector<double>& values, double turn) {
+    const double scale = 2 * std::numbers::pi / turn;
+    double across = 0, along = 0;
+    for (double value : values) {
+        across += std::sin(scale * value);
+        along += std::cos(scale * value);
+    }
+    const double mean = std::atan2(across, along) / scale;
+    for (double& value : values)
+        value = std::remainder(value - mean, turn);
+}
+
 // Weights of values on evenly spaced bins, in shares of the axis, that reach as far beyond its ends as kernels do, or
 // go round it.
 class Bins {
@@ -131,9 +145,10 @@ AxisDensity estimate_density(const Column& column, const Axis& axis, const Selec
         density.shares.push_back(static_cast<float>(i) / (DENSITY_SAMPLES - 1));
     const double extent = (double(axis.high) - axis.low) / (axis.is_closed ? axis.periods : 1);
     const double finest = 1.0 / (DENSITY_SAMPLES - 1);
-    double bandwidth = extent > 0 ? std::max(find_bandwidth(values) / extent, finest) : finest;
-    if (axis.is_closed)
-        bandwidth = std::min(bandwidth, 1.0); // wrapped, that is even all round
+    std::vector<double> spread = values;
+    if (axis.is_closed && extent > 0)
+        unwind(spread, extent);
+    const double bandwidth = extent > 0 ? std::max(find_bandwidth(spread) / extent, finest) : finest;
     density.bandwidth = static_cast<float>(bandwidth * extent);
     Bins bins(bandwidth, axis.is_closed);
     for (double value : values)

@@ -18,8 +18,8 @@ struct AxisDensity {
 constexpr std::size_t DENSITY_SAMPLES = 257;
 
 // Gaussian kernel with Silverman's bandwidth 0.9 min(σ, IQR/1.34) n^(-1/5), σ alone where the IQR is 0, and no
-// narrower than the distance between samples. It wraps on a closed axis, there over one turn. Photons without a value
-// do not count; without any value, all heights are 0.
+// narrower than the distance between samples. On a closed axis it wraps over one turn, and σ and IQR are those of the
+// values about their circular mean. Photons without a value do not count; without any value, all heights are 0.
 AxisDensity estimate_density(const Column& column, const Axis& axis, const Selection& photons);
 
 // The area between an axis and its density, at most `width` pixels deep: to the right of a line, outside an ellipse.

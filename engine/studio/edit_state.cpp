@@ -60,7 +60,7 @@ void redo(Workspace& workspace) {
 }
 
 void copy_python(Workspace& workspace) {
-    ImGui::SetClipboardText(write_python(complete_state(workspace)).c_str());
+    ImGui::SetClipboardText(write_program(workspace).c_str());
     workspace.say("the Python of this state is on the clipboard");
 }
 
@@ -195,6 +195,14 @@ StudioState complete_state(Workspace& workspace) {
         }
     }
     return state;
+}
+
+std::string write_program(Workspace& workspace) {
+    std::vector<std::string> parameters;
+    if (workspace.has_parameters())
+        for (const ParameterAxis& parameter : workspace.results.photons->map.parameters->axes)
+            parameters.push_back(parameter.name);
+    return write_python(complete_state(workspace), parameters);
 }
 
 void toggle_keys(Workspace& workspace) {

@@ -53,5 +53,7 @@ std::optional<Bounds> find_photon_box(const Photons& photons, const Ids& ids);
 std::vector<AxisState> list_axes(Workspace& workspace);
 // The state with those axes written out.
 StudioState complete_state(Workspace& workspace);
+// The Python program of the state.
+std::string write_program(Workspace& workspace);
 
 } // namespace photonloupe::studio

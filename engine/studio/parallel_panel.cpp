@@ -196,6 +196,12 @@ void ParallelPanel::update(Workspace& workspace, std::uint32_t width, std::uint3
         return;
     }
     const auto start = std::chrono::steady_clock::now();
+    // Brushes choose among the photons shown: others may be shown now.
+    if (const Ids brushed = find_brushed(workspace);
+        brushed && (!workspace.state.selection || *brushed != *workspace.state.selection)) {
+        workspace.select(brushed);
+        m_plot.key = write_key(workspace, width, height);
+    }
     find_axes(workspace);
     const std::string& source = workspace.state.parallel.source;
     const Ids ids = workspace.find_source(source);

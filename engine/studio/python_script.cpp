@@ -2,6 +2,8 @@
 // Writes the state as a Python program; what stands at its default is left out.
 #include "studio/python_script.h"
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "studio/camera.h"
@@ -104,12 +106,21 @@ std::string write_axis(const AxisState& axis) {
     return text + (brushes.empty() ? "" : ", brush=[" + brushes + "]") + "),\n";
 }
 
+// The brushes of the parameters, the first of each axis.
+std::string write_ranges(const ParallelState& parallel, const std::vector<std::string>& parameters) {
+    std::string text;
+    for (const AxisState& axis : parallel.axes)
+        if (!axis.brushes.empty() && std::find(parameters.begin(), parameters.end(), axis.name) != parameters.end())
+            text += (text.empty() ? "" : ", ") + quote(axis.name) + ": " + write(axis.brushes.front());
+    return text;
+}
+
 // The map in view.
 std::string name_shown(const StudioState& state) {
     return state.view.shows_relaxed ? "relaxed" : "photons";
 }
 
-std::string write_loupe(const StudioState& state) {
+std::string write_loupe(const StudioState& state, const std::vector<std::string>& parameters) {
     const LoupeState& loupe = state.loupe;
     if (!loupe.has_point)
         return "";
@@ -119,6 +130,8 @@ std::string write_loupe(const StudioState& state) {
         text += ", beta=" + write(loupe.beta);
     if (loupe.lock == "pin" && !loupe.pins.empty())
         text += ", center=" + std::to_string(loupe.pins.back());
+    if (const std::string ranges = write_ranges(state.parallel, parameters); loupe.lock == "brushes" && !ranges.empty())
+        text += ", ranges={" + ranges + "}";
     return text + ",\n)\n";
 }
 
@@ -136,11 +149,11 @@ std::string write_plot(const StudioState& state) {
 
 } // namespace
 
-std::string write_python(const StudioState& state) {
+std::string write_python(const StudioState& state, const std::vector<std::string>& parameters) {
     if (state.trace.scene.empty() && state.trace.map.empty())
         return "import photonloupe as pl\n";
     return "import photonloupe as pl\n\n" + write_trace(state.trace) + write_run(state.script) +
-           write_relax(state.relax) + write_render(state) + write_loupe(state) + write_plot(state);
+           write_relax(state.relax) + write_render(state) + write_loupe(state, parameters) + write_plot(state);
 }
 
 } // namespace photonloupe::studio

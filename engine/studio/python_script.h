@@ -12,7 +12,8 @@ namespace photonloupe::studio {
 inline constexpr std::uint32_t RENDER_WIDTH = 640;
 inline constexpr std::uint32_t RENDER_HEIGHT = 480;
 
-// Loads, traces, runs the script, relaxes, renders the view as it is, and plots the parallel coordinates.
-std::string write_python(const StudioState& state);
+// Loads, traces, runs the script, relaxes, renders the view as it is, looks through the loupe, and plots the parallel
+// coordinates. `parameters` are the names the script gave.
+std::string write_python(const StudioState& state, const std::vector<std::string>& parameters = {});
 
 } // namespace photonloupe::studio

@@ -46,8 +46,10 @@ public:
     // Takes input and what work has delivered, lays out and draws; in a window also shows it. Without a window there
     // are as many passes as the input needs, and views are finished.
     void frame();
-    // Waits for input, at most so long; returns at once while something moves.
-    void wait(double seconds);
+    // Waits for input, at most so long; returns at once while something moves. False: nothing changed, a frame would
+    // be the same.
+    bool wait(double seconds);
+    void hide();
     bool should_close() const;
 
     // RGBA8, row 0 at the top.
@@ -117,7 +119,7 @@ private:
     std::string m_progress_stage;
     double m_progress = 0;
     double m_chunk_milliseconds = 0; // of the device before the studio was opened
-    std::uint32_t m_draws_left = 0; // frames until nothing moves any more
+    std::uint32_t m_draws_left = 0;  // frames until nothing moves any more
 };
 
 } // namespace photonloupe::studio

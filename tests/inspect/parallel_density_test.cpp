@@ -76,11 +76,19 @@ TEST(ParallelDensity, of_a_wound_axis_is_over_one_turn) {
                       {.low = 0, .high = 6, .is_closed = true, .periods = 3}, 2);
 }
 
-TEST(ParallelDensity, kernels_as_wide_as_a_turn_go_round_more_than_once) {
-    const Column column = make_column(draw_values(50, 3, 1), 0, 6);
-    const Axis axis{.low = 0, .high = 6, .is_closed = true, .periods = 60};
-    expect_kernel_sum(column, axis, 0.1);
-    EXPECT_NEAR(estimate(column, axis).bandwidth, 0.1, 1e-6) << "no wider: it is even all round by then";
+TEST(ParallelDensity, of_an_axis_wound_sixty_times_is_over_one_turn) {
+    expect_kernel_sum(make_column(draw_values(50, 3, 1), 0, 6),
+                      {.low = 0, .high = 6, .is_closed = true, .periods = 60}, 0.1);
+}
+
+TEST(ParallelDensity, cluster_across_the_seam_is_as_narrow_as_elsewhere) {
+    const Axis axis{.low = 0, .high = 6, .is_closed = true};
+    std::vector<float> middle = draw_values(200, 3, 0.1f), seam = middle;
+    for (float& value : seam)
+        value += value < 3 ? 3.0f : -3.0f;
+    const float expected = estimate(make_column(middle, 0, 6), {.low = 0, .high = 6}).bandwidth;
+    EXPECT_NEAR(estimate(make_column(seam, 0, 6), axis).bandwidth, expected, 1e-5);
+    EXPECT_NEAR(estimate(make_column(middle, 0, 6), axis).bandwidth, expected, 1e-5);
 }
 
 TEST(ParallelDensity, bandwidth_is_silvermans) {

@@ -16,6 +16,7 @@ from scipy import stats
 from scipy.interpolate import PchipInterpolator
 
 import photonloupe as pl
+from conftest import find_scene
 from photonloupe.inspect import Axis, ParallelCoordinates, parallel_coordinates
 
 COUNT = 250
@@ -234,6 +235,33 @@ def test_map_has_its_positions_and_parameters_as_axes() -> None:
     assert (plotted.axes[1].low, plotted.axes[1].high) == (0.0, 3.0)
 
 
+def test_map_has_every_column_as_axis() -> None:
+    photons = pl.trace_photons(pl.load_scene(find_scene("ring")), 2_000, seed=1)
+    photons.set_parameters(photons.positions[:, 0], ["x"], [[-3.0, 3.0]])
+    names = ["primal_theta", "primal_phi", "signature", "parameter.x", "x"]
+    plotted = parallel_coordinates(photons, names)
+    expected = [pl.inspect.column(photons, name) for name in names]
+    np.testing.assert_array_equal(plotted.values, np.stack([column.values for column in expected], axis=1))
+    assert [axis.closed for axis in plotted.axes] == [False, True, False, False, False]
+    assert [(axis.low, axis.high) for axis in plotted.axes] == [(column.low, column.high) for column in expected]
+    assert [density.is_bars for density in plotted.density] == [False, False, True, False, False]
+
+
+def test_column_that_a_map_lacks_is_refused_with_what_to_do() -> None:
+    photons = pl.PhotonMap.from_arrays(positions=np.eye(3), normals=[[0, 1, 0]] * 3, power=np.ones((3, 3)))
+    with pytest.raises(pl.ArgumentError, match="'alpha'; the columns are x, y, z"):
+        parallel_coordinates(photons, ["alpha"])
+    with pytest.raises(pl.ArgumentError, match=r"tortuosity.*path"):
+        parallel_coordinates(photons, ["tortuosity"])
+
+
+def test_selection_and_size_follow_the_axes() -> None:
+    data = make_data()
+    plotted = parallel_coordinates(data, ["a", "b"], [5, 2], (300, 200))
+    np.testing.assert_array_equal(plotted.selected, [2, 5])
+    assert np.asarray(plotted.image).shape == (200, 300, 3)
+
+
 def test_svg_stands_alone(tmp_path: Path) -> None:
     data = {"a<b": make_data()["a"], "phi": make_data()["phi"], "edges": make_data()["edges"]}
     plotted = plot(data, closed=["phi"], brushes={"a<b": [(1.9, 2.1)]})
@@ -297,6 +325,7 @@ def test_svg_that_cannot_be_written_is_an_error(tmp_path: Path) -> None:
         ({"tension": 1.5}, "tension"),
         ({"size": (900, 20)}, r"size\[1\]"),
         ({"size": (116, 360)}, "no room"),
+        ({"size": (900, 360, 3)}, "width, height"),
         ({"selection": [COUNT]}, "is not a photon"),
         ({"color": np.zeros((3, 3))}, "color"),
         ({"color": "c"}, "'c'"),

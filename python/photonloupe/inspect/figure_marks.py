@@ -24,7 +24,15 @@ _BAR_CORNERS = 4
 
 
 def draw_marks(pixels: NDArray[np.uint8], marks: list[Any], labels: list[str]) -> NDArray[np.uint8]:
-    """Return (h, w, 3) of opaque curves (h, w, 4) with everything else that a figure needs to stand alone."""
+    """Return (h, w, 3) of opaque curves (h, w, 4) with everything else that a figure needs to stand alone.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from photonloupe.inspect.figure_marks import draw_marks
+    >>> draw_marks(np.zeros((2, 4, 4), np.uint8), [], []).shape
+    (2, 4, 3)
+    """
     height, width = pixels.shape[:2]
     picture = Pillow.frombuffer("RGBX", (width, height), pixels, "raw", "RGBX", 0, 1).convert("RGB")
     draw = ImageDraw.Draw(picture)

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from photonloupe.checks import check_count, check_number
 from photonloupe.errors import ArgumentError
+from photonloupe.inspect.columns import column as compute_column
 
 if TYPE_CHECKING:
     from photonloupe.photons import PhotonMap
@@ -20,7 +21,6 @@ _LARGEST = float(np.finfo(np.float32).max)
 MOST_PERIODS = 1000
 # Whole numbers of which there are no more than this are counted, not smoothed.
 MOST_DISTINCT = 64
-_WORLD = ("x", "y", "z")
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class Axis:
     Attributes
     ----------
     name
-        Of the column: ``"x"``, ``"y"``, ``"z"``, a parameter's name, or a key of the arrays given.
+        Of the column: one that `photonloupe.inspect.columns` lists, or a key of the arrays given.
     low, high
         Range between the axis's ends, in the column's unit; default its bounds, or its least and largest value.
     closed
@@ -42,6 +42,12 @@ class Axis:
     brush
         Intervals ``(low, high)``, both ends included; photons in any of them are in focus. On a closed axis low may
         be the larger: the interval then goes on through the ends.
+
+    Examples
+    --------
+    >>> import photonloupe as pl
+    >>> pl.inspect.Axis("primal_phi", closed=True, brush=[(3.0, -3.0)]).periods
+    1
     """
 
     name: str
@@ -76,15 +82,8 @@ def find_column(photons: PhotonMap | Mapping[str, ArrayLike], name: str) -> Show
         if name not in photons:
             raise ArgumentError(f"there is no array {name!r}; there are {', '.join(map(str, photons))}")
         return _measure_column(name, name, photons[name])
-    if name in _WORLD:
-        return _measure_column(name, f"{name} [m]", photons.positions[:, _WORLD.index(name)])
-    for i, parameter in enumerate(photons.parameter_list):
-        if parameter.name == name:
-            column = _measure_column(name, name, photons.parameters[:, i])
-            period = parameter.high - parameter.low if parameter.periodic else 0.0
-            return ShownColumn(name, name, column.values, parameter.low, parameter.high, period, column.is_discrete)
-    known = ", ".join((*_WORLD, *photons.parameter_names))
-    raise ArgumentError(f"there is no column {name!r}; there are {known}")
+    found = compute_column(photons, name)
+    return ShownColumn(name, found.label, found.values, found.low, found.high, found.period, found.discrete)
 
 
 def _measure_column(name: str, label: str, given: ArrayLike) -> ShownColumn:

@@ -115,9 +115,9 @@ class ParallelCoordinates:
 def parallel_coordinates(
     photons: PhotonMap | Mapping[str, ArrayLike],
     axes: Sequence[str | Axis],
-    *,
     selection: ArrayLike | None = None,
-    size: tuple[int, int] = (900, 360),
+    size: Sequence[int] = (900, 360),
+    *,
     color: str | ArrayLike | None = None,
     closed: Iterable[str] | None = None,
     tension: float = 1.0,
@@ -136,7 +136,7 @@ def parallel_coordinates(
     photons
         A map, or arrays (n,) by name.
     axes
-        Names or `Axis`, from left to right: ``"x"``, ``"y"``, ``"z"`` (m), parameters, or keys of the arrays.
+        Names or `Axis`, from left to right: columns that `photonloupe.inspect.columns` lists, or keys of the arrays.
     selection
         Ids or mask of the photons in focus; the others are drawn beneath, in grey. None or empty: all.
     size
@@ -181,7 +181,7 @@ def parallel_coordinates(
     focus = check_rows([] if selection is None else selection, count)
     color_column, colors = _find_colors(photons, columns[0], color, count)
     settings = {
-        "size": [check_count(f"size[{i}]", side, LEAST_SIDE, LARGEST_SIDE) for i, side in enumerate(size)],
+        "size": _check_size(size),
         "tension": check_number("tension", tension, 0.0, 1.0),
         "density": bool(density),
         "most_curves": check_count("most_curves", most_curves, 0, 2**31),
@@ -202,6 +202,12 @@ def parallel_coordinates(
             raise ArgumentError(str(error)) from None
         raise
     return _gather_plot(figure, shown, columns, settings["size"])
+
+
+def _check_size(size: Sequence[int]) -> list[int]:
+    if len(tuple(size)) != 2:
+        raise ArgumentError(f"size must be (width, height), not {size!r}")
+    return [check_count(f"size[{i}]", side, LEAST_SIDE, LARGEST_SIDE) for i, side in enumerate(size)]
 
 
 def _complete_axes(

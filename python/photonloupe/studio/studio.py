@@ -148,13 +148,15 @@ class Studio:
     def run(self, frames: int | None = None) -> None:
         """Draw frames until the window is closed, or so many."""
         drawn = 0
+        changed = True
         while not self.should_close and (frames is None or drawn < frames):
-            self.frame()
-            drawn += 1
+            if changed or frames is not None:
+                self.frame()
+                drawn += 1
             self.watch_files()
             if self._autosave is not None:
                 self._autosave.save_when_due()
-            self._native.wait(0.05 if self._worker.is_busy else 0.5)
+            changed = self._native.wait(0.05 if self._worker.is_busy else 0.5)
 
     @property
     def should_close(self) -> bool:
@@ -171,6 +173,7 @@ class Studio:
         if self._is_open:
             self._is_open = False
             self._worker.close()
+            self._native.hide()
             if self._autosave is not None:
                 self._autosave.clear()
 
