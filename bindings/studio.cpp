@@ -54,7 +54,9 @@ nb::object read_selection(Studio& self) {
 
 void select(Studio& self, std::optional<std::vector<std::uint32_t>> ids) {
     Workspace& workspace = self.workspace();
-    workspace.change("select", [&](studio::StudioState&) {
+    workspace.change("select", [&](studio::StudioState& state) {
+        for (studio::AxisState& axis : state.parallel.axes)
+            axis.brushes.clear();
         workspace.select(ids ? std::make_shared<const std::vector<std::uint32_t>>(std::move(*ids)) : nullptr);
     });
 }
