@@ -192,6 +192,7 @@ void bind_state(nb::class_<Studio>& type) {
                  const auto& loupe = self.workspace().loupe;
                  return own_array(loupe ? std::vector<std::uint32_t>(loupe->ids) : std::vector<std::uint32_t>{});
              })
+        .def("has_relaxed", [](const Studio& self) { return self.workspace().has_relaxed(); })
         .def("version", [](Studio& self) { return self.workspace().selection_version; })
         .def("selection", &read_selection)
         .def("select", &select, nb::arg("ids").none());
@@ -203,6 +204,7 @@ void bind_studio(nb::module_& module) {
     nb::class_<Studio> type(module, "Studio");
     type.def("frame", &Studio::frame, nb::call_guard<nb::gil_scoped_release>())
         .def("wait", &Studio::wait, nb::call_guard<nb::gil_scoped_release>())
+        .def("hide", &Studio::hide)
         .def_prop_ro("should_close", &Studio::should_close)
         .def_prop_ro("size", [](const Studio& self) { return std::pair(self.width(), self.height()); })
         .def("image", [](Studio& self) { return take_pixels(self.read_image(), self.width(), self.height()); })

@@ -46,22 +46,29 @@ std::vector<glm::vec3> list_encoded_colors(const PhotonMap& photons) {
     return colors;
 }
 
-std::vector<glm::vec3> list_column_colors(const Column& column) {
-    return list_column_colors(column, column.period > 0 ? Colormap::twilight : Colormap::cividis);
+Colormap choose_colormap(const Column& column) {
+    return column.period > 0 ? Colormap::twilight : Colormap::cividis;
 }
 
-std::vector<glm::vec3> list_column_colors(const Column& column, Colormap map) {
+float find_color_share(const Column& column, float value) {
     // In double: a range may be wider than floats reach, or vanish.
     const double low = column.low;
     const double extent = column.period > 0 ? column.period : static_cast<double>(column.high) - low;
+    double share = extent > 0 ? (value - low) / extent : value - low + 0.5;
+    if (column.period > 0)
+        share -= std::floor(share);
+    return static_cast<float>(share);
+}
+
+std::vector<glm::vec3> list_column_colors(const Column& column) {
+    return list_column_colors(column, choose_colormap(column));
+}
+
+std::vector<glm::vec3> list_column_colors(const Column& column, Colormap map) {
     std::vector<glm::vec3> colors;
     colors.reserve(column.values.size());
-    for (const float value : column.values) {
-        double share = extent > 0 ? (value - low) / extent : value - low + 0.5;
-        if (column.period > 0)
-            share -= std::floor(share);
-        colors.push_back(linearize(map_color(map, static_cast<float>(share))));
-    }
+    for (const float value : column.values)
+        colors.push_back(linearize(map_color(map, find_color_share(column, value))));
     return colors;
 }
 

@@ -22,7 +22,10 @@ std::vector<glm::vec3> list_hash_colors(std::uint64_t count);
 // The false colors that a script gave (grey where it did not), else those of the ids.
 std::vector<glm::vec3> list_encoded_colors(const PhotonMap& photons);
 
-// Periodic columns by twilight over their period, others by cividis over low … high.
+// Twilight for what repeats, cividis for the rest.
+Colormap choose_colormap(const Column& column);
+// Place of a value in a color map: periodic columns over their period, others over low … high. NaN for NaN.
+float find_color_share(const Column& column, float value);
 std::vector<glm::vec3> list_column_colors(const Column& column);
 std::vector<glm::vec3> list_column_colors(const Column& column, Colormap map);
 

@@ -116,14 +116,16 @@ int parse_chord(std::string_view text) {
 }
 
 void run_pressed_commands(Workspace& workspace) {
-    const ImGuiIO& io = ImGui::GetIO();
+    // An open menu takes the keys: escape closes it, and nothing else happens.
+    const bool has_menu = ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopup);
+    if (has_menu && ImGui::IsKeyPressed(ImGuiKey_Escape, false))
+        ImGui::ClosePopupToLevel(0, true);
+    const bool takes_text = ImGui::GetIO().WantTextInput || has_menu;
     // Tab is before and after; ImGui would take it to the next field.
-    if (!io.WantTextInput)
+    if (!takes_text)
         ImGui::SetKeyOwner(ImGuiKey_Tab, ImGui::GetID("commands"));
     for (const Command& command : COMMANDS) {
-        if (command.keys.empty())
-            continue;
-        if (io.WantTextInput && !command.works_in_text)
+        if (command.keys.empty() || (takes_text && !command.works_in_text))
             continue;
         const int chord = parse_chord(command.keys);
         if (ImGui::IsKeyChordPressed(chord, ImGuiInputFlags_None, ImGuiKeyOwner_Any))

@@ -24,6 +24,14 @@ constexpr float PLOT_SHARE = 0.36f;       // of the height: plots under the view
 constexpr float NUMBER_SHARE = 0.52f;     // of the height: the lower panels on the right
 constexpr std::uint64_t DOCKED_FRAME = 1; // windows stand in their docks after it
 
+// The tab of the current window, by which a panel behind others is brought to the front.
+void mark_tab(Workspace& workspace, const char* name) {
+    const ImGuiWindow& window = *ImGui::GetCurrentWindow();
+    const ImRect& tab = window.DC.DockTabItemRect;
+    if (window.DockIsActive)
+        workspace.widgets[std::string("Tab/") + name] = {tab.Min.x, tab.Min.y, tab.GetWidth(), tab.GetHeight()};
+}
+
 } // namespace
 
 Panels::Panels() = default;
@@ -88,7 +96,9 @@ void Panels::draw(Workspace& workspace) {
             ImGui::SetNextWindowFocus();
             workspace.focus.clear();
         }
-        if (ImGui::Begin(name, nullptr, flags))
+        const bool is_seen = ImGui::Begin(name, nullptr, flags);
+        mark_tab(workspace, name);
+        if (is_seen)
             draw_panel();
         ImGui::End();
     }

@@ -115,11 +115,16 @@ std::string write_ranges(const ParallelState& parallel, const std::vector<std::s
     return text;
 }
 
+// The map in view.
+std::string name_shown(const StudioState& state) {
+    return state.view.shows_relaxed ? "relaxed" : "photons";
+}
+
 std::string write_loupe(const StudioState& state, const std::vector<std::string>& parameters) {
     const LoupeState& loupe = state.loupe;
     if (!loupe.has_point)
         return "";
-    std::string text = "view = pl.inspect.loupe(\n    relaxed, " + write(loupe.point) +
+    std::string text = "view = pl.inspect.loupe(\n    " + name_shown(state) + ", " + write(loupe.point) +
                        ", k=" + std::to_string(loupe.k) + ", space=" + quote(loupe.space);
     if (loupe.space == "constrained")
         text += ", beta=" + write(loupe.beta);
@@ -138,7 +143,7 @@ std::string write_plot(const StudioState& state) {
     for (const AxisState& axis : parallel.axes)
         text += write_axis(axis);
     const bool uses_loupe = parallel.source == "loupe" && state.loupe.has_point;
-    return text + "]\nplot = pl.inspect.parallel_coordinates(relaxed, axes, " +
+    return text + "]\nplot = pl.inspect.parallel_coordinates(" + name_shown(state) + ", axes, " +
            (uses_loupe ? "selection=view.ids, " : "") + "tension=" + write(parallel.tension) + ")\n";
 }
 

@@ -10,8 +10,8 @@
 #include <imgui.h>
 
 #include "core/error.h"
-#include "inspect/cell_image.h"
 #include "inspect/histogram.h"
+#include "inspect/photon_colors.h"
 #include "studio/parallel_panel.h"
 #include "studio/theme.h"
 #include "studio/widgets.h"
@@ -30,9 +30,7 @@ std::vector<glm::vec3> list_colors(Workspace& workspace, std::size_t count) {
     if (workspace.find_colors("encoding").empty())
         colors.assign(count, PLAIN_COLOR);
     for (const std::uint32_t packed : workspace.find_colors("encoding"))
-        colors.push_back(glm::vec3(std::pow((packed & 255) / 255.0f, 2.2f),
-                                   std::pow((packed >> 8 & 255) / 255.0f, 2.2f),
-                                   std::pow((packed >> 16 & 255) / 255.0f, 2.2f)));
+        colors.push_back(inspect::linearize(glm::vec3(packed & 255, packed >> 8 & 255, packed >> 16 & 255) / 255.0f));
     return colors;
 }
 

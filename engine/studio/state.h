@@ -119,6 +119,7 @@ struct RelaxState {
     RelaxChoices used;        // of the steps that were made
     std::uint32_t made = 0;   // steps
     bool is_measured = false; // the constraint is known, even of no steps
+    bool is_wanted() const { return made > 0 || is_measured; }
 };
 
 struct ImageState {

@@ -2,6 +2,7 @@
 // Frames: input, deliveries, layout, drawing; and the hand-over of work between threads.
 #include "studio/studio.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include <imgui.h>
@@ -113,6 +114,7 @@ void Studio::take_deliveries() {
     }
     for (const auto& change : deliveries)
         change(m_workspace);
+    m_workspace.drop_unwanted();
 }
 
 bool Studio::has_input_left() const {
@@ -204,16 +206,24 @@ void Studio::draw_frame() {
         m_surface->present(m_canvas);
 }
 
-void Studio::wait(double seconds) {
+bool Studio::wait(double seconds) {
     const Current current(m_context, m_plots);
-    const bool moves = !m_workspace.is_settled || ImGui::IsAnyItemActive() || has_input_left();
-    m_draws_left = moves ? QUIET_FRAMES : m_draws_left;
-    if (m_draws_left > 0) {
-        --m_draws_left;
-        seconds = 0;
-    }
-    if (m_window && wait_for_input(seconds))
+    if (!m_workspace.is_settled || ImGui::IsAnyItemActive() || has_input_left())
         m_draws_left = QUIET_FRAMES;
+    if (m_window && wait_for_input(m_draws_left > 0 ? 0 : seconds))
+        m_draws_left = QUIET_FRAMES;
+    std::lock_guard lock(m_mutex);
+    if (!m_deliveries.empty() || m_running)
+        m_draws_left = std::max(m_draws_left, 1u);
+    if (m_draws_left == 0)
+        return false;
+    --m_draws_left;
+    return true;
+}
+
+void Studio::hide() {
+    if (m_window)
+        hide_window(*m_window);
 }
 
 bool Studio::should_close() const {

@@ -46,8 +46,10 @@ public:
     // Takes input and what work has delivered, lays out and draws; in a window also shows it. Without a window there
     // are as many passes as the input needs, and views are finished.
     void frame();
-    // Waits for input, at most so long; returns at once while something moves.
-    void wait(double seconds);
+    // Waits for input, at most so long; returns at once while something moves. False: nothing changed, a frame would
+    // be the same.
+    bool wait(double seconds);
+    void hide();
     bool should_close() const;
 
     // RGBA8, row 0 at the top.

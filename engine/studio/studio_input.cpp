@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Input from programs, as a window would send it.
 #include <algorithm>
+#include <cmath>
 
 #include <imgui.h>
 #include <imgui_internal.h>
@@ -20,6 +21,8 @@ ImGuiIO& find_io(ImGuiContext* context) {
 } // namespace
 
 void Studio::move_mouse(float x, float y) {
+    if (!std::isfinite(x) || !std::isfinite(y))
+        throw Error("the mouse cannot move to a place that is not finite");
     find_io(m_context).AddMousePosEvent(x, y);
 }
 
@@ -30,6 +33,8 @@ void Studio::press_mouse(int button, bool is_down) {
 }
 
 void Studio::turn_wheel(float steps) {
+    if (!std::isfinite(steps))
+        throw Error("the wheel cannot turn by steps that are not finite");
     find_io(m_context).AddMouseWheelEvent(0, steps);
 }
 
@@ -51,7 +56,12 @@ void Studio::press_key(const std::string& chord) {
 
 void Studio::hold_key(const std::string& name, bool is_down) {
     const int parsed = parse_chord(name);
-    find_io(m_context).AddKeyEvent(static_cast<ImGuiKey>(parsed), is_down);
+    ImGuiIO& io = find_io(m_context);
+    for (const int key : {int{ImGuiMod_Ctrl}, int{ImGuiMod_Shift}, int{ImGuiMod_Alt}})
+        if (parsed & key)
+            io.AddKeyEvent(static_cast<ImGuiKey>(key), is_down);
+    if (const int key = parsed & ~ImGuiMod_Mask_)
+        io.AddKeyEvent(static_cast<ImGuiKey>(key), is_down);
 }
 
 void Studio::type_text(const std::string& text) {

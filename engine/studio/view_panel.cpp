@@ -7,6 +7,7 @@
 
 #include <imgui.h>
 
+#include "inspect/photon_colors.h"
 #include "photons/map_columns.h"
 #include "studio/camera.h"
 #include "studio/edit_state.h"
@@ -20,6 +21,7 @@ namespace {
 
 constexpr const char* MODE_NAMES[] = {"1 points",       "2 Voronoi cells",      "3 kd-tree", "4 false color points",
                                       "5 final render", "6 false color render", "7 map"};
+constexpr ImU32 LABEL_COLOR = 0xffe0e0e0;
 constexpr float ORBIT_SPEED = 0.006f;  // radians a pixel
 constexpr float SPLIT_REACH = 5.0f;    // pixels from the line that take hold of it
 constexpr float DRAG_THRESHOLD = 4.0f; // pixels before a click is a drag
@@ -58,6 +60,34 @@ std::optional<std::uint32_t> find_photon_at(const Photons& photons, const ViewFr
         }
     }
     return nearest;
+}
+
+// What the colors of the map stand for.
+void draw_color_bar(Workspace& workspace, const ViewFrame& frame) {
+    constexpr int STEPS = 64;
+    std::string missing;
+    const inspect::Column* column = workspace.seek_column(workspace.state.view.map_column, missing);
+    if (!column)
+        return;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const inspect::Colormap map = inspect::choose_colormap(*column);
+    const float width = 12 * workspace.scale, height = std::min(160 * workspace.scale, 0.5f * frame.height);
+    const float left = frame.x + frame.width - width - 64 * workspace.scale, top = frame.y + 34 * workspace.scale;
+    const float step = height / STEPS;
+    for (int i = 0; i < STEPS; ++i) {
+        const glm::vec3 color = inspect::map_color(map, 1 - (static_cast<float>(i) + 0.5f) / STEPS);
+        const float y = top + static_cast<float>(i) * step;
+        list.AddRectFilled({left, y}, {left + width, y + step + 1},
+                           ImGui::ColorConvertFloat4ToU32({color.r, color.g, color.b, 1}));
+    }
+    char low[32], high[32];
+    std::snprintf(low, sizeof low, "%.3g", static_cast<double>(column->low));
+    std::snprintf(high, sizeof high, "%.3g", static_cast<double>(column->high));
+    const float line = ImGui::GetTextLineHeight();
+    list.AddText({left + width + 5, top - 0.3f * line}, LABEL_COLOR, high);
+    list.AddText({left + width + 5, top + height - 0.7f * line}, LABEL_COLOR, low);
+    const float text = ImGui::CalcTextSize(column->label.c_str()).x;
+    list.AddText({frame.x + frame.width - text - 12, top - 1.6f * line}, LABEL_COLOR, column->label.c_str());
 }
 
 } // namespace
@@ -148,6 +178,8 @@ void ViewPanel::draw_images(Workspace& workspace, const ViewFrame& frame) {
     } else {
         show(view.shows_relaxed ? m_after : m_before, view.shows_relaxed, frame.x, frame.x + frame.width);
     }
+    if (view.mode == ViewMode::map && missing.empty())
+        draw_color_bar(workspace, frame);
     if (!missing.empty()) {
         ImGui::SetCursorScreenPos({frame.x + 12, frame.y + 12});
         ui::say_empty(missing);

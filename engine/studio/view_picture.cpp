@@ -7,7 +7,9 @@
 #include <unordered_map>
 
 #include "core/error.h"
+#include "image/png.h"
 #include "inspect/kd_cells.h"
+#include "inspect/photon_colors.h"
 #include "inspect/splat_photons.h"
 #include "inspect/voronoi.h"
 #include "studio/camera.h"
@@ -30,14 +32,9 @@ std::string write_pose(const CameraPose& pose) {
     return text + std::to_string(pose.yfov);
 }
 
-// Muted colors that tell neighbouring cells apart.
-std::uint32_t hash_color(std::uint32_t id) {
-    std::uint32_t bits = id * 0x9e3779b9u;
-    bits ^= bits >> 15;
-    bits *= 0x85ebca6bu;
-    bits ^= bits >> 13;
-    const auto channel = [&](int shift) { return 70 + (bits >> shift & 255) * 110 / 255; };
-    return channel(0) | channel(8) << 8 | channel(16) << 16 | 0xff000000u;
+std::uint32_t pack_hash_color(std::uint32_t id) {
+    const glm::vec3 color = inspect::hash_color(id);
+    return encode_srgb(color.r, 0) | encode_srgb(color.g, 0) << 8 | encode_srgb(color.b, 0) << 16 | 0xff000000u;
 }
 
 std::vector<std::uint32_t> mark_selected(const Workspace& workspace, std::uint64_t count) {
@@ -67,7 +64,7 @@ std::vector<std::uint32_t> paint(const inspect::CellImage& cells, std::span<cons
         if (id < 0)
             continue;
         const auto cell = static_cast<std::size_t>(id);
-        std::uint32_t color = hashes                 ? hash_color(static_cast<std::uint32_t>(id))
+        std::uint32_t color = hashes                 ? pack_hash_color(static_cast<std::uint32_t>(id))
                               : cell < colors.size() ? colors[cell]
                                                      : PLAIN_CELL;
         if (cell < marks.size() && !marks[cell])
@@ -75,6 +72,16 @@ std::vector<std::uint32_t> paint(const inspect::CellImage& cells, std::span<cons
         pixels[i] = cells.is_border[i] && sizes[id] >= SMALLEST_BORDERED ? CELL_BORDER : color;
     }
     return pixels;
+}
+
+// Whether the photons lack the colors that the mode shows them in.
+bool find_what_is_missing(Workspace& workspace, Photons& photons, std::string& missing) {
+    const ViewState& view = workspace.state.view;
+    if (view.mode == ViewMode::map)
+        workspace.seek_column(view.map_column, missing, &photons);
+    if (view.mode == ViewMode::colored_points && !photons.map.colors)
+        missing = "the photons have no false colors; run a script that calls setPhotonColourEncoding";
+    return !missing.empty();
 }
 
 } // namespace
@@ -198,6 +205,8 @@ void ViewPicture::update(Workspace& workspace, bool relaxed, std::uint32_t width
         draw_render(workspace, missing);
         break;
     default:
+        if (find_what_is_missing(workspace, *photons, missing))
+            break;
         draw_points(workspace, *photons, columns, rows);
     }
     m_missing = missing;

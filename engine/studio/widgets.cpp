@@ -3,12 +3,16 @@
 #include "studio/widgets.h"
 
 #include <imgui.h>
+#include <imgui_internal.h>
 
 namespace photonloupe::studio::ui {
 
 void mark(Workspace& workspace, const std::string& name) {
-    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-    workspace.widgets[name] = {low.x, low.y, high.x - low.x, high.y - low.y};
+    // What is scrolled out of sight is not on the screen.
+    ImRect seen(ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
+    seen.ClipWith(ImGui::GetCurrentWindowRead()->ClipRect);
+    if (seen.GetWidth() > 0 && seen.GetHeight() > 0)
+        workspace.widgets[name] = {seen.Min.x, seen.Min.y, seen.GetWidth(), seen.GetHeight()};
 }
 
 void explain(const char* text) {

@@ -9,7 +9,7 @@
 
 namespace photonloupe::studio::ui {
 
-// Remembers where the last item was drawn.
+// Remembers where the last item was drawn, as far as it is in sight.
 void mark(Workspace& workspace, const std::string& name);
 // Explains the last item while the mouse rests on it.
 void explain(const char* text);

@@ -54,6 +54,11 @@ void close_window(GLFWwindow* window) {
     glfwTerminate();
 }
 
+void hide_window(GLFWwindow& window) {
+    glfwHideWindow(&window);
+    glfwPollEvents();
+}
+
 void begin_window_frame() {
     ImGui_ImplGlfw_NewFrame();
 }

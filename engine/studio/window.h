@@ -14,6 +14,7 @@ class Studio;
 // Throws DeviceError where there is no screen. `studio` gets the files that are dropped on it.
 GLFWwindow* open_window(std::uint32_t width, std::uint32_t height, const std::string& title, Studio& studio);
 void close_window(GLFWwindow* window);
+void hide_window(GLFWwindow& window);
 void begin_window_frame();
 // True: there was input.
 bool wait_for_input(double seconds);

@@ -75,7 +75,7 @@ std::optional<Job> plan_work(const StudioState& state, const CameraPose& camera,
     }
     if (ask(job, done, "script", script_key, script))
         return job;
-    if (state.relax.made > 0 || state.relax.is_measured) {
+    if (state.relax.is_wanted()) {
         Settings relax = describe_relax(state.relax.used, holding.parameters);
         const std::string settings_key = script_key + relax.dump();
         relax["made"] = state.relax.made;
@@ -90,7 +90,7 @@ std::optional<Job> plan_work(const StudioState& state, const CameraPose& camera,
         Settings render{{"camera", describe_camera(camera)},
                         {"k", state.image.k},
                         {"samples", state.image.samples},
-                        {"relaxed", state.view.shows_relaxed}};
+                        {"relaxed", state.view.shows_relaxed && state.relax.is_wanted()}};
         if (ask(job, done, "render", version + render.dump(), render))
             return job;
         const Settings reference{{"path", state.image.reference}};

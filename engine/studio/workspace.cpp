@@ -8,8 +8,8 @@
 
 #include "core/error.h"
 #include "image/png.h"
-#include "inspect/colormap.h"
 #include "inspect/histogram.h"
+#include "inspect/photon_colors.h"
 #include "studio/edit_state.h"
 
 namespace photonloupe::studio {
@@ -56,12 +56,11 @@ bool is_parameter(const PhotonMap& map, const std::string& name) {
 }
 
 std::vector<std::uint32_t> pack_column(const inspect::Column& column) {
-    const inspect::Colormap map = column.period > 0 ? inspect::Colormap::twilight : inspect::Colormap::viridis;
-    const float span = column.high > column.low ? column.high - column.low : 1.0f;
+    const inspect::Colormap map = inspect::choose_colormap(column);
     std::vector<std::uint32_t> colors;
     colors.reserve(column.values.size());
     for (const float value : column.values)
-        colors.push_back(pack_color(inspect::map_color(map, (value - column.low) / span)));
+        colors.push_back(pack_color(inspect::map_color(map, inspect::find_color_share(column, value))));
     return colors;
 }
 
@@ -193,6 +192,13 @@ void Workspace::take_relaxed(std::shared_ptr<Photons> photons, std::vector<StepR
     results.relax_beta = beta;
     ++results.photons_version;
     drop_caches();
+}
+
+void Workspace::drop_unwanted() {
+    if (!results.relaxed || state.relax.is_wanted())
+        return;
+    take_relaxed(nullptr, {}, 0);
+    done.erase("relax");
 }
 
 void Workspace::drop_caches() {

@@ -96,6 +96,8 @@ struct Workspace {
     Photons* shown() const;
     Photons* shown(bool relaxed) const;
     bool has_relaxed() const { return results.relaxed != nullptr; }
+    // What the state no longer asks for goes: relaxed photons after a reset or an undo.
+    void drop_unwanted();
     bool has_parameters() const { return results.photons && results.photons->map.parameters.has_value(); }
 
     // A command: goes into the history under its name, then changes the state.

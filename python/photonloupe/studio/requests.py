@@ -132,8 +132,10 @@ class Requests:
         """Write the parallel coordinates as they are chosen as an SVG file."""
         if name != "Parallel coordinates":
             raise ArgumentError(f"only parallel coordinates are written as SVG; export {name} as .png")
-        state = json.loads(self._native.complete_state())["parallel"]
-        photons = self._stages.relaxed or self._stages.photons
+        whole = json.loads(self._native.complete_state())
+        state = whole["parallel"]
+        shows_relaxed = whole["view"]["shows_relaxed"] and self._native.has_relaxed()
+        photons = self._stages.relaxed if shows_relaxed else self._stages.photons
         if photons is None or not state["axes"]:
             raise ArgumentError("there is nothing to plot yet; open a scene and draw a frame")
         axes = [

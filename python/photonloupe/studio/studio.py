@@ -97,6 +97,7 @@ class Studio:
         self._requests = Requests(self._native, self._stages, self.export_panel)
         self._watchers: list[SelectionWatcher] = []
         self._seen_version = self._native.version()
+        self._told_selection: NDArray[np.uint32] | None = None
         self._native.deliver_examples(find_examples())
         self._autosave = None if offscreen else Autosave(self._native)
         left = None if self._autosave is None else self._autosave.find_left()
@@ -139,13 +140,15 @@ class Studio:
     def run(self, frames: int | None = None) -> None:
         """Draw frames until the window is closed, or so many."""
         drawn = 0
+        changed = True
         while not self.should_close and (frames is None or drawn < frames):
-            self.frame()
-            drawn += 1
+            if changed or frames is not None:
+                self.frame()
+                drawn += 1
             self._requests.watch_files()
             if self._autosave is not None:
                 self._autosave.save_when_due()
-            self._native.wait(0.05 if self._worker.is_busy else 0.5)
+            changed = self._native.wait(0.05 if self._worker.is_busy else 0.5)
 
     @property
     def should_close(self) -> bool:
@@ -162,6 +165,7 @@ class Studio:
         if self._is_open:
             self._is_open = False
             self._worker.close()
+            self._native.hide()
             if self._autosave is not None:
                 self._autosave.clear()
 
@@ -355,7 +359,7 @@ class Studio:
     @property
     def relaxed(self) -> PhotonMap | None:
         """The relaxed photons, if any."""
-        return self._stages.relaxed
+        return self._stages.relaxed if self._native.has_relaxed() else None
 
     @property
     def scene(self) -> Scene | None:
@@ -396,8 +400,12 @@ class Studio:
         if version == self._seen_version:
             return
         self._seen_version = version
+        selection = self.selection
+        if _are_alike(selection, self._told_selection):
+            return
+        self._told_selection = selection
         for watcher in self._watchers:
-            watcher(self.selection)
+            watcher(selection)
 
     def _require_open(self) -> None:
         if not self._is_open:
@@ -406,6 +414,12 @@ class Studio:
     def __repr__(self) -> str:
         count = 0 if self._stages.photons is None else len(self._stages.photons)
         return f"<Studio {self._native.size[0]} × {self._native.size[1]}, {count:,} photons>"
+
+
+def _are_alike(first: NDArray[np.uint32] | None, second: NDArray[np.uint32] | None) -> bool:
+    if first is None or second is None:
+        return first is second
+    return np.array_equal(first, second)
 
 
 def _check_size(size: Sequence[int]) -> tuple[int, int]:
