@@ -6,6 +6,7 @@
 
 #include "core/cache_folder.h"
 #include "studio/edit_state.h"
+#include "studio/loupe_query.h"
 #include "studio/python_script.h"
 #include "studio/session.h"
 #include "studio/studio.h"
@@ -189,6 +190,10 @@ void bind_state(nb::class_<Studio>& type) {
              [](Studio& self) { return studio::write_state(studio::complete_state(self.workspace()), {}); })
         .def("message",
              [](Studio& self) { return std::pair(self.workspace().message, self.workspace().message_is_error); })
+        .def("look_at",
+             [](Studio& self, const std::array<double, 3>& point) {
+                 studio::move_loupe(self.workspace(), point, std::nullopt);
+             })
         .def("loupe_ids",
              [](Studio& self) {
                  const auto& loupe = self.workspace().loupe;

@@ -80,7 +80,7 @@ void look(Workspace& workspace, Photons& photons) {
 
 } // namespace
 
-void move_loupe(Workspace& workspace, const std::array<double, 3>& point, const glm::vec3& normal) {
+void move_loupe(Workspace& workspace, const std::array<double, 3>& point, const std::optional<glm::vec3>& normal) {
     workspace.state.loupe.point = point;
     workspace.state.loupe.has_point = true;
     workspace.loupe_normal = normal;

@@ -7,7 +7,8 @@
 namespace photonloupe::studio {
 
 // Moves the loupe; not a command: undo does not follow the mouse.
-void move_loupe(Workspace& workspace, const std::array<double, 3>& point, const glm::vec3& normal);
+// `normal` of the surface there, if it is known.
+void move_loupe(Workspace& workspace, const std::array<double, 3>& point, const std::optional<glm::vec3>& normal);
 
 // Fills `loupe` and `pinned` of the workspace where they are out of date.
 void update_loupe(Workspace& workspace);

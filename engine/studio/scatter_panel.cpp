@@ -3,12 +3,14 @@
 #include "studio/scatter_panel.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
 #include <imgui.h>
 
 #include "core/error.h"
+#include "inspect/histogram.h"
 #include "inspect/photon_colors.h"
 #include "studio/parallel_panel.h"
 #include "studio/theme.h"
@@ -18,13 +20,44 @@ namespace photonloupe::studio {
 namespace {
 
 constexpr std::size_t SMALLEST_LASSO = 3;
+constexpr double PAIR_ROOM = 0.9;                  // half a plot, in extents of the loupe's photons
+constexpr double PAIR_REST = 0.02;                 // of them at either end, that took another way and lie far off
+constexpr glm::vec3 PLAIN_COLOR(0.3f, 0.5f, 0.8f); // of photons that no script gave a color
 
 // Linear colors, as the plot takes them.
-std::vector<glm::vec3> list_colors(Workspace& workspace) {
+std::vector<glm::vec3> list_colors(Workspace& workspace, std::size_t count) {
     std::vector<glm::vec3> colors;
+    if (workspace.find_colors("encoding").empty())
+        colors.assign(count, PLAIN_COLOR);
     for (const std::uint32_t packed : workspace.find_colors("encoding"))
         colors.push_back(inspect::linearize(glm::vec3(packed & 255, packed >> 8 & 255, packed >> 16 & 255) / 255.0f));
     return colors;
+}
+
+// Both axes to one scale, about the photons: a disc in the world looks like a disc, and its image like what it became.
+void fit_ranges(inspect::ScatterSettings& settings, const inspect::Column& x, const inspect::Column& y,
+                const inspect::Selection& photons) {
+    std::array<std::vector<float>, 2> values;
+    for (const std::uint32_t id : photons)
+        if (std::isfinite(x.values[id]) && std::isfinite(y.values[id])) {
+            values[0].push_back(x.values[id]);
+            values[1].push_back(y.values[id]);
+        }
+    if (values[0].empty())
+        return;
+    glm::dvec2 low, high;
+    for (int i = 0; i < 2; ++i) {
+        low[i] = inspect::find_quantile(values[static_cast<std::size_t>(i)], PAIR_REST);
+        high[i] = inspect::find_quantile(values[static_cast<std::size_t>(i)], 1 - PAIR_REST);
+    }
+    const glm::dvec2 pixels(settings.width, settings.height);
+    const glm::dvec2 extent = (high - low) / pixels;
+    const double reach = PAIR_ROOM * std::max(extent.x, extent.y); // a pixel's
+    if (!(reach > 0))
+        return;
+    const glm::dvec2 middle = 0.5 * (low + high), half = reach * pixels;
+    settings.x_range = {middle.x - half.x, middle.x + half.x};
+    settings.y_range = {middle.y - half.y, middle.y + half.y};
 }
 
 std::string format_range(const inspect::Column& column, const inspect::Range& range) {
@@ -49,8 +82,9 @@ void ScatterPanel::update(Workspace& workspace, Plot& plot, const std::string& t
                           const std::string& y, bool is_polar, std::uint32_t width, std::uint32_t height) {
     const ScatterState& scatter = workspace.state.scatter;
     const std::string source = scatter.shows_pair ? "loupe" : scatter.source;
-    std::string key = x + "|" + y + "|" + source + std::to_string(is_polar) + " " + std::to_string(width) + "x" +
-                      std::to_string(height) + " " + std::to_string(workspace.results.photons_version) + " " +
+    std::string key = x + "|" + y + "|" + source + std::to_string(is_polar) + std::to_string(scatter.shows_pair) + " " +
+                      std::to_string(width) + "x" + std::to_string(height) + " " +
+                      std::to_string(workspace.results.photons_version) + " " +
                       std::to_string(workspace.selection_version) + std::to_string(workspace.state.view.shows_relaxed);
     if (source == "loupe")
         key += " " + std::to_string(workspace.loupe_result_version);
@@ -76,9 +110,11 @@ void ScatterPanel::update(Workspace& workspace, Plot& plot, const std::string& t
     settings.width = width;
     settings.height = height;
     settings.is_polar = is_polar;
+    if (scatter.shows_pair && shown && !is_polar)
+        fit_ranges(settings, plot.x, plot.y, *shown);
     try {
-        const inspect::ScatterPlot drawn =
-            inspect::plot_scatter(plot.x, plot.y, list_colors(workspace), chosen ? &*chosen : nullptr, settings);
+        const inspect::ScatterPlot drawn = inspect::plot_scatter(
+            plot.x, plot.y, list_colors(workspace, plot.x.values.size()), chosen ? &*chosen : nullptr, settings);
         std::vector<std::uint32_t> pixels(drawn.rgba.size() / 4);
         for (std::size_t i = 0; i < pixels.size(); ++i)
             pixels[i] = drawn.rgba[4 * i] | drawn.rgba[4 * i + 1] << 8 | drawn.rgba[4 * i + 2] << 16 |

@@ -201,7 +201,8 @@ void ViewPanel::move_under_cursor(Workspace& workspace, const ViewFrame& frame, 
     if (!photon)
         return;
     const std::vector<float> positions = read_positions(photons->map);
-    move_loupe(workspace, {positions[3 * *photon], positions[3 * *photon + 1], positions[3 * *photon + 2]}, {});
+    move_loupe(workspace, {positions[3 * *photon], positions[3 * *photon + 1], positions[3 * *photon + 2]},
+               std::nullopt);
 }
 
 void ViewPanel::take_mouse(Workspace& workspace, const ViewFrame& frame) {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the tables of docs/script.md from the engine: run this file after changing a predefined call or a code."""
+"""Writes tables of the manuals from the engine: run this file after changing a predefined call, a code or a command."""
 
 from __future__ import annotations
 
@@ -8,7 +8,9 @@ from pathlib import Path
 
 from photonloupe import _engine
 
-MANUAL = Path(__file__).resolve().parents[2] / "docs" / "script.md"
+DOCS = Path(__file__).resolve().parents[2] / "docs"
+MANUAL = DOCS / "script.md"
+STUDIO_MANUAL = DOCS / "studio.md"
 
 
 def list_builtins() -> str:
@@ -29,9 +31,18 @@ def list_codes() -> str:
     return "\n".join(["| code | meaning |", "|---|---|", *rows])
 
 
+def list_commands() -> str:
+    """Every command of the studio with its keys."""
+    rows = [
+        f"| {f'`{keys}`' if keys else '—'} | `{name}` | {about} |"
+        for name, keys, about in _engine.list_studio_commands()
+    ]
+    return "\n".join(["| keys | command | what it does |", "|---|---|---|", *rows])
+
+
 def fill_tables(text: str) -> str:
     """Put the tables between their marks."""
-    for name, table in (("builtins", list_builtins()), ("codes", list_codes())):
+    for name, table in (("builtins", list_builtins()), ("codes", list_codes()), ("commands", list_commands())):
         begin, end = f"<!-- {name}: begin -->", f"<!-- {name}: end -->"
         pattern = re.compile(re.escape(begin) + ".*?" + re.escape(end), re.DOTALL)
         text = pattern.sub(lambda _, filled=f"{begin}\n{table}\n{end}": filled, text)
@@ -39,4 +50,5 @@ def fill_tables(text: str) -> str:
 
 
 if __name__ == "__main__":
-    MANUAL.write_text(fill_tables(MANUAL.read_text(encoding="utf-8")), encoding="utf-8")
+    for manual in (MANUAL, STUDIO_MANUAL):
+        manual.write_text(fill_tables(manual.read_text(encoding="utf-8")), encoding="utf-8")

@@ -27,7 +27,7 @@ from photonloupe.device import open_device
 SUMMARY = "the ring case study, pictures into out/demo/"
 DESCRIPTION = (
     "Trace the gold ring, save its photon map, render its caustic, composite and photons; run scripts over it and show "
-    "their parameters in false color; then relax a noisier map of it in three ways and show them side by side."
+    "their parameters in false color; then relax a noisier map of it in three ways and show them side by side, and in the studio."
 )
 
 _SCENE = Path("scenes", "ring", "ring.gltf")
@@ -63,6 +63,8 @@ _COMPARED_EXPOSURE = 0.3
 # Of the picture's height: from the wall's rim to below the cusp, with the band between where the light crosses itself.
 _BAND = (0.06, 0.5)
 _COLUMNS = 2
+# Where the light of both halves of the wall crosses itself, m.
+_CROSSING = (0.0, 0.0, -0.908)
 
 
 @dataclass(frozen=True)
@@ -192,6 +194,29 @@ def _compare_relaxations(demo: _Demo) -> None:
     demo.note(path, what, watch)
 
 
+def _show_studio(demo: _Demo) -> None:
+    """Look at the crossing in the studio: three sheets of light that the primal trajectory tells apart."""
+    watch = Stopwatch()
+    path = demo.folder / "studio.png"
+    with (
+        watch.measure("all"),
+        pl.Studio(
+            scene=demo.scene,
+            offscreen=True,
+            photons=_COMPARED_PHOTONS,
+            script=demo.scripts / f"{_LAYERS}.photon",
+            device=demo.device,
+        ) as studio,
+    ):
+        studio.frame()
+        studio.command("view.straight")
+        studio.command("view.colored_points")
+        studio.look_at(_CROSSING)
+        studio.command("relax.run")
+        studio.save_image(path)
+    demo.note(path, f"the studio, relaxed photons in the colors of {_LAYERS}, the loupe at the crossing", watch)
+
+
 def _describe(way: _Way, photons: pl.PhotonMap) -> str:
     settings = photons.relaxation.get("settings")
     return f"k = {_COMPARED_K}, {way.label}" + (f", {settings['steps']} steps" if settings else "")
@@ -207,6 +232,7 @@ def run(arguments: argparse.Namespace) -> int:
     _show_ring(demo)
     _show_scripts(demo)
     _compare_relaxations(demo)
+    _show_studio(demo)
 
     def write_table() -> list[str]:
         rows = [["file", "what", "seconds"]]

@@ -259,6 +259,14 @@ class Studio:
             self._native.hold_key(key, False)
         self.frame()
 
+    def look_at(self, point: Sequence[float]) -> None:
+        """Move the loupe to a point (3,), m, as the mouse over the view would."""
+        values = np.asarray(point, dtype=np.float64)
+        if values.shape != (3,) or not np.isfinite(values).all():
+            raise ArgumentError(f"point must be three finite numbers, not {point!r}")
+        self._native.look_at([float(value) for value in values])
+        self.frame()
+
     def wheel(self, steps: float) -> None:
         """Turn the wheel; positive: away from the user."""
         self._native.turn_wheel(steps)
