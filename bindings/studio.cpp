@@ -23,6 +23,13 @@ std::unique_ptr<Studio> open_studio(OpenDevice& open, std::pair<std::uint32_t, s
     return std::make_unique<Studio>(open.device, studio::StudioOptions{size.first, size.second, scale, is_offscreen});
 }
 
+// Without the GIL: what waits for the device may wait for work that reports its progress to Python.
+template <class Work>
+auto run_free(const Work& work) {
+    nb::gil_scoped_release release;
+    return work();
+}
+
 nb::ndarray<nb::numpy, std::uint8_t, nb::ndim<3>> take_pixels(const std::vector<std::uint32_t>& pixels,
                                                               std::size_t width, std::size_t height) {
     std::vector<std::uint8_t> rgb;
@@ -133,7 +140,7 @@ void bind_input(nb::class_<Studio>& type) {
         .def("hold_key", &Studio::hold_key)
         .def("type_text", &Studio::type_text)
         .def("drop_file", &Studio::drop_file)
-        .def("command", &Studio::run_command)
+        .def("command", &Studio::run_command, nb::call_guard<nb::gil_scoped_release>())
         .def("widget", [](const Studio& self, const std::string& name) { return describe_box(self.find_widget(name)); })
         .def("widgets", &Studio::list_widgets);
 }
@@ -187,9 +194,13 @@ void bind_state(nb::class_<Studio>& type) {
              [](Studio& self, const std::string& path) { studio::save_session(path, self.workspace().state); })
         .def("load_session",
              [](Studio& self, const std::string& path) { self.set_state("open session", studio::load_session(path)); })
-        .def("python", [](Studio& self) { return studio::write_program(self.workspace()); })
-        .def("complete_state",
-             [](Studio& self) { return studio::write_state(studio::complete_state(self.workspace()), {}); })
+        .def(
+            "python", [](Studio& self) { return studio::write_program(self.workspace()); },
+            nb::call_guard<nb::gil_scoped_release>())
+        .def(
+            "complete_state",
+            [](Studio& self) { return studio::write_state(studio::complete_state(self.workspace()), {}); },
+            nb::call_guard<nb::gil_scoped_release>())
         .def("message",
              [](Studio& self) { return std::pair(self.workspace().message, self.workspace().message_is_error); })
         .def("look_at",
@@ -223,12 +234,16 @@ void bind_studio(nb::module_& module) {
         .def("hide", &Studio::hide)
         .def_prop_ro("should_close", &Studio::should_close)
         .def_prop_ro("size", [](const Studio& self) { return std::pair(self.width(), self.height()); })
-        .def("image", [](Studio& self) { return take_pixels(self.read_image(), self.width(), self.height()); })
+        .def("image",
+             [](Studio& self) {
+                 return take_pixels(run_free([&] { return self.read_image(); }), self.width(), self.height());
+             })
         .def("panel",
              [](Studio& self, const std::string& name, std::uint32_t width, std::uint32_t height, float scale) {
-                 return take_pixels(self.read_panel(name, width, height, scale), width, height);
+                 return take_pixels(run_free([&] { return self.read_panel(name, width, height, scale); }), width,
+                                    height);
              })
-        .def("resize", &Studio::resize)
+        .def("resize", &Studio::resize, nb::call_guard<nb::gil_scoped_release>())
         .def("statistics", [](Studio& self) {
             studio::FrameStatistics taken = self.take_statistics();
             nb::dict row;

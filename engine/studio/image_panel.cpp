@@ -73,7 +73,8 @@ void ImagePanel::draw_image(Workspace& workspace) {
                                                                      : results.image;
     if (!shown) {
         ui::say_empty(choices.shows == "image"
-                          ? (results.scene ? "the image is being rendered" : "rendering needs a scene; open one")
+                          ? (results.scene ? workspace.explain_wait("render", "the image is being rendered")
+                                           : "rendering needs a scene; open one")
                           : "there is no reference; name one and press Compare, or Store this picture");
         return;
     }

@@ -79,6 +79,15 @@ void draw_activity(Workspace& workspace) {
             workspace.requests.push_back("cancel");
         ImGui::EndDisabled();
     }
+    if (!workspace.failed.empty() && !activity.is_running) {
+        ImGui::SameLine();
+        if (ui::button(workspace, "Status/Retry", "Retry", "Do again what went wrong")) {
+            for (const auto& [kind, error] : workspace.failed)
+                workspace.done.erase(kind);
+            workspace.failed.clear();
+            workspace.say("");
+        }
+    }
     if (workspace.message.empty())
         return;
     ImGui::SameLine();

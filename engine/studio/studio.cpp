@@ -269,7 +269,6 @@ void Studio::set_state(const std::string& name, StudioState state) {
     m_workspace.history.record(name, m_workspace.state);
     m_workspace.history.end_gesture();
     m_workspace.state = std::move(state);
-    m_workspace.drop_unknown_ids();
     ++m_workspace.selection_version;
     ++m_workspace.loupe_version;
 }

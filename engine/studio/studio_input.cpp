@@ -89,12 +89,13 @@ void Studio::drop_file(const std::string& path) {
 
 std::optional<Job> Studio::take_job() {
     std::lock_guard lock(m_mutex);
-    if (m_running)
+    // What was delivered decides what comes next.
+    if (m_running || !m_deliveries.empty())
         return std::nullopt;
     const Workspace& workspace = m_workspace;
     const Wanted wanted{workspace.wants_render, workspace.wants_isotropy};
-    const Holding holding{workspace.results.photons != nullptr, workspace.has_parameters(),
-                          workspace.results.photons_version};
+    const Holding holding{workspace.results.photons != nullptr, workspace.results.scene != nullptr,
+                          workspace.has_parameters(), workspace.results.photons_version};
     m_running = plan_work(workspace.state, find_pose(workspace.state.view.camera), wanted, holding, workspace.done);
     m_stop = false;
     m_progress = 0;
@@ -121,8 +122,14 @@ void Studio::end_job(const Job& job, const std::string& error) {
         // Photons are traced or loaded: one takes the other's place.
         if (job.kind == "trace" || job.kind == "map")
             workspace.done.erase(job.kind == "trace" ? "map" : "trace");
-        if (!error.empty())
+        // The script has not run over them.
+        if (job.kind == "trace" || job.kind == "map")
+            workspace.done.erase("script");
+        workspace.failed.erase(job.kind);
+        if (!error.empty()) {
+            workspace.failed[job.kind] = error;
             workspace.say(error, true);
+        }
     });
     std::lock_guard lock(m_mutex);
     m_running.reset();

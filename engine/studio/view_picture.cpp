@@ -159,7 +159,7 @@ void ViewPicture::draw_render(Workspace& workspace, std::string& missing) {
     if (!image) {
         missing = is_colored && !workspace.results.photons->map.colors
                       ? "the photons have no false colors; run a script that calls setPhotonColourEncoding"
-                      : "the image is being rendered";
+                      : workspace.explain_wait("render", "the image is being rendered");
         return;
     }
     workspace.pixels.set(m_texture, image->width, image->height, map_tones(*image, workspace.state.image));

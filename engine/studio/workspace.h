@@ -57,6 +57,7 @@ struct Workspace {
     History history;
     Results results;
     DoneWork done;
+    std::map<std::string, std::string> failed; // kinds of work that went wrong, and how
     Activity activity;
     ScriptDocument script;
     std::vector<ExampleScript> examples;
@@ -116,6 +117,10 @@ struct Workspace {
     // The same, or null with what to do in `missing`.
     const inspect::Column* seek_column(const std::string& name, std::string& missing, Photons* photons = nullptr);
     const std::vector<inspect::ColumnInfo>& list_columns();
+    // What columns call the parameters, in their order.
+    const std::vector<std::string>& list_parameters();
+    // Why something is not there yet: the work is under way (`waiting`), or it went wrong.
+    std::string explain_wait(const std::string& kind, const char* waiting) const;
     // sRGB colors of photons, by id: the script's encoding, or a column through a color map. Empty: grey.
     const std::vector<std::uint32_t>& find_colors(const std::string& name, Photons* photons = nullptr);
 
@@ -149,6 +154,7 @@ private:
     Columns m_columns;
     std::map<ColumnKey, std::vector<std::uint32_t>> m_colors;
     std::map<const Photons*, std::vector<inspect::ColumnInfo>> m_infos;
+    std::map<const Photons*, std::vector<std::string>> m_parameters;
 };
 
 } // namespace photonloupe::studio
