@@ -160,6 +160,10 @@ void look_straight(Workspace& workspace) {
 }
 
 void clear_selection(Workspace& workspace) {
+    if (workspace.shows_keys) {
+        workspace.shows_keys = false; // Escape closes what is open first
+        return;
+    }
     workspace.change("select nothing", [&](StudioState& state) {
         for (AxisState& axis : state.parallel.axes)
             axis.brushes.clear();
@@ -212,6 +216,7 @@ std::string write_program(Workspace& workspace) {
 
 void toggle_keys(Workspace& workspace) {
     workspace.shows_keys = !workspace.shows_keys;
+    workspace.focus = "Keys";
 }
 
 } // namespace photonloupe::studio

@@ -20,6 +20,7 @@
 namespace photonloupe::studio {
 namespace {
 
+constexpr std::size_t MOST_AXES = 32; // as sessions hold
 constexpr ImU32 AXIS_COLOR = 0xffc8c8c8, DENSITY_COLOR = 0x70a0a0a0, BRUSH_COLOR = 0xa040b0ff;
 constexpr float DENSITY_WIDTH = 22;
 
@@ -279,8 +280,10 @@ void ParallelPanel::draw_toolbar(Workspace& workspace) {
     ImGui::SetNextItemWidth(90 * workspace.scale);
     if (ui::choose_column(workspace, "Parallel coordinates/Add", "##add", added))
         change_axes(workspace, "add axis", [&](std::vector<AxisState>& axes) {
-            axes.emplace_back();
-            axes.back().name = added;
+            if (axes.size() < MOST_AXES) {
+                axes.emplace_back();
+                axes.back().name = added;
+            }
         });
     ImGui::SameLine();
     if (ui::button(workspace, "Parallel coordinates/FitAll", "Fit", "Every open axis to the photons shown"))

@@ -12,6 +12,8 @@
 namespace photonloupe::studio {
 namespace {
 
+constexpr float LARGEST_THRESHOLD = 1e30f;
+
 template <class Change>
 void edit(Workspace& workspace, const char* name, const Change& make) {
     workspace.change(name, [&](StudioState& state) { make(state.relax.choices); });
@@ -102,7 +104,11 @@ void draw_choices(Workspace& workspace) {
         });
     std::array<float, 2> thresholds = now.thresholds;
     if (ImGui::InputFloat2("thresholds", thresholds.data(), "%.3g"))
-        edit(workspace, "thresholds", [&](RelaxChoices& state) { state.thresholds = thresholds; });
+        edit(workspace, "thresholds", [&](RelaxChoices& state) {
+            for (std::size_t i = 0; i < 2; ++i)
+                if (std::abs(thresholds[i]) <= LARGEST_THRESHOLD)
+                    state.thresholds[i] = thresholds[i];
+        });
     ui::mark(workspace, "Relaxation/Thresholds");
     ui::explain("Value of the descriptor that leaves a photon free, and the one that fixes it; equal: its own");
     ImGui::SameLine(0.5f * ImGui::GetContentRegionAvail().x);

@@ -78,6 +78,7 @@ ScriptPanel::ScriptPanel(const Workspace& workspace) {
     TextEditor::AutoCompleteConfig completion;
     completion.callback = [this](TextEditor::AutoCompleteState& state) { suggest_names(state, m_editor); };
     completion.triggerOnTyping = !workspace.is_offscreen; // it waits for a clock
+    completion.triggerOnShortcut = !workspace.is_offscreen;
     m_editor.SetAutoCompleteConfig(&completion);
     m_editor.SetTextHoverCallback([this](TextEditor::PopupData& data) {
         const std::string word =

@@ -100,6 +100,7 @@ private:
     void draw_frame();
     void take_deliveries();
     void lay_out();
+    void lay_out_safely();
     bool has_input_left() const;
 
     Workbench m_bench; // of this thread: the work has its own

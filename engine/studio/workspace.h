@@ -101,11 +101,13 @@ struct Workspace {
     void drop_unwanted();
     bool has_parameters() const { return results.photons && results.photons->map.parameters.has_value(); }
 
-    // A command: goes into the history under its name, then changes the state.
+    // A command: changes the state and goes into the history under its name, if there was anything to change.
     template <class Change>
     void change(const std::string& name, const Change& make) {
-        history.record(name, state);
+        const StudioState before = state;
         make(state);
+        if (!(state == before))
+            history.record(name, before);
     }
     void say(std::string text, bool is_error = false) {
         message = std::move(text);
