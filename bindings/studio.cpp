@@ -62,9 +62,10 @@ void select(Studio& self, std::optional<std::vector<std::uint32_t>> ids) {
     });
 }
 
-void deliver_photons(Studio& self, std::shared_ptr<const Scene> scene, std::shared_ptr<Photons> photons) {
-    self.deliver([scene = std::move(scene), photons = std::move(photons)](Workspace& workspace) {
-        workspace.take_photons(scene, photons);
+void deliver_photons(Studio& self, std::shared_ptr<const Scene> scene, std::shared_ptr<Photons> photons,
+                     bool has_same_paths) {
+    self.deliver([scene = std::move(scene), photons = std::move(photons), has_same_paths](Workspace& workspace) {
+        workspace.take_photons(scene, photons, has_same_paths);
     });
 }
 
@@ -149,7 +150,8 @@ void bind_work(nb::class_<Studio>& type) {
         .def("take_requests", &Studio::take_requests)
         .def("say", [](Studio& self, const std::string& text,
                        bool is_error) { self.deliver([=](Workspace& workspace) { workspace.say(text, is_error); }); })
-        .def("deliver_photons", &deliver_photons, nb::arg("scene").none(), nb::arg("photons"))
+        .def("deliver_photons", &deliver_photons, nb::arg("scene").none(), nb::arg("photons"),
+             nb::arg("has_same_paths"))
         .def("deliver_relaxed", &deliver_relaxed, nb::arg("photons").none(), nb::arg("steps"), nb::arg("beta"))
         .def("deliver_isotropy", &deliver_isotropy)
         .def("deliver_script", &deliver_script)

@@ -17,6 +17,7 @@ namespace {
 
 constexpr const char* ENCODING = "encoding";
 constexpr const char* ISOTROPY = "isotropy";
+constexpr const char* PARAMETER_PREFIX = "parameter."; // of parameters that have the name of another column
 
 std::uint32_t pack_color(glm::vec3 srgb) {
     const auto byte = [](float value) {
@@ -146,7 +147,19 @@ Ids Workspace::find_source(const std::string& source) {
     return std::make_shared<const std::vector<std::uint32_t>>(std::move(ids));
 }
 
-void Workspace::take_photons(std::shared_ptr<const Scene> scene, std::shared_ptr<Photons> photons) {
+Workspace::Columns Workspace::take_lasting_columns(const Photons* next) {
+    const Photons* now = results.photons.get();
+    Columns lasting;
+    for (auto& [key, column] : m_columns)
+        if (key.photons == now && key.name != ISOTROPY && !key.name.starts_with(PARAMETER_PREFIX) &&
+            !is_parameter(now->map, key.name) && !is_parameter(next->map, key.name))
+            lasting[{next, key.name}] = std::move(column);
+    return lasting;
+}
+
+void Workspace::take_photons(std::shared_ptr<const Scene> scene, std::shared_ptr<Photons> photons,
+                             bool has_same_paths) {
+    Columns lasting = has_same_paths && results.photons ? take_lasting_columns(photons.get()) : Columns{};
     results.scene = std::move(scene);
     results.photons = std::move(photons);
     results.relaxed.reset();
@@ -157,6 +170,7 @@ void Workspace::take_photons(std::shared_ptr<const Scene> scene, std::shared_ptr
     done.erase("relax");
     ++results.photons_version;
     drop_caches();
+    m_columns = std::move(lasting);
     drop_unknown_ids();
     if (!state.view.camera.is_set)
         if (const std::optional<Bounds> box = find_photon_box(*results.photons, nullptr))

@@ -125,7 +125,9 @@ struct Workspace {
     Ids find_source(const std::string& source);
 
     // What work has given. The trees that views ask for must have been built: the work may read them at the same time.
-    void take_photons(std::shared_ptr<const Scene> scene, std::shared_ptr<Photons> photons);
+    // With `has_same_paths` they are those in view, of which a script changed the parameters alone.
+    void take_photons(std::shared_ptr<const Scene> scene, std::shared_ptr<Photons> photons,
+                      bool has_same_paths = false);
     void take_relaxed(std::shared_ptr<Photons> photons, std::vector<StepResult> steps, double beta);
 
     void take_isotropy(IsotropyResult isotropy);
@@ -140,7 +142,11 @@ private:
         std::string name;
         auto operator<=>(const ColumnKey&) const = default;
     };
-    std::map<ColumnKey, inspect::Column> m_columns;
+    using Columns = std::map<ColumnKey, inspect::Column>;
+    // Of the photons in view, those that do not depend on parameters.
+    Columns take_lasting_columns(const Photons* next);
+
+    Columns m_columns;
     std::map<ColumnKey, std::vector<std::uint32_t>> m_colors;
     std::map<const Photons*, std::vector<inspect::ColumnInfo>> m_infos;
 };

@@ -96,9 +96,9 @@ class Stages:
             self._native.say(f"without paths: {error}", False)
         self.traced = photons
         self._spare = None
-        self._show(photons)
+        self._show(photons, has_same_paths=False)
 
-    def _show(self, photons: pl.PhotonMap) -> None:
+    def _show(self, photons: pl.PhotonMap, *, has_same_paths: bool) -> None:
         """Let the interface show photons, their trees built."""
         native = photons.upload()
         _engine.build_view_trees(self._device._native, native)
@@ -106,7 +106,7 @@ class Stages:
         self.relaxed = None
         self._relaxation = None
         self._relaxation_key = ""
-        self._native.deliver_photons(None if self.scene is None else self.scene._native, native)
+        self._native.deliver_photons(None if self.scene is None else self.scene._native, native, has_same_paths)
 
     def _take_spare(self) -> pl.PhotonMap:
         """Return a copy of the traced photons that is not shown."""
@@ -132,7 +132,7 @@ class Stages:
         milliseconds = _MILLISECONDS * (time.perf_counter() - start)
         # What was shown until now is free for the next run, unless it is the map as it was traced.
         shown = self.photons
-        self._show(target)
+        self._show(target, has_same_paths=True)
         self._spare = None if shown is self.traced else shown
         self._native.deliver_script(
             [_describe_histogram(name, histogram) for name, histogram in run.histograms.items()],
@@ -144,7 +144,7 @@ class Stages:
     def _load_again(self) -> None:
         assert self.traced is not None
         self._spare = None
-        self._show(self.traced)
+        self._show(self.traced, has_same_paths=True)
 
     def _relax(self, settings: dict[str, Any], progress: Progress) -> None:
         assert self.photons is not None
