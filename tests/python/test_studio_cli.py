@@ -112,7 +112,7 @@ def test_saved_maps_and_sessions_are_opened(tmp_path: Path) -> None:
         ("--script", "missing.photon"),
         ("--script", "wrong.photon"),
     ],
-    ids=lambda arguments: " ".join(arguments),
+    ids=" ".join,
 )
 def test_mistake_is_one_message_and_exit_code_two(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...]
