@@ -123,6 +123,9 @@ void draw_status_line(Workspace& workspace) {
                                  ImGuiInputTextFlags_EnterReturnsTrue))
         workspace.requests.push_back("open " + workspace.open_path);
     ui::mark(workspace, "Status/Open");
+    // What may have to be acted on stands first: a narrow window cuts the rest.
+    draw_restore_offer(workspace);
+    draw_activity(workspace);
     ImGui::SameLine();
     std::string told = workspace.device.info().name.substr(0, workspace.device.info().name.find(" ("));
     if (const Photons* photons = workspace.shown())
@@ -136,8 +139,6 @@ void draw_status_line(Workspace& workspace) {
         for (const auto& [stage, milliseconds] : workspace.stage_milliseconds)
             told += "  " + stage + " " + std::to_string(static_cast<int>(milliseconds)) + " ms";
     ImGui::TextDisabled("%s", told.c_str());
-    draw_restore_offer(workspace);
-    draw_activity(workspace);
     ImGui::End();
 }
 
@@ -169,8 +170,9 @@ void draw_key_list(Workspace& workspace) {
             ImGui::EndTable();
         }
     }
+    const ImVec2 low = ImGui::GetWindowPos(), extent = ImGui::GetWindowSize();
+    workspace.widgets["Keys"] = {low.x, low.y, extent.x, extent.y};
     ImGui::End();
-    ui::mark(workspace, "Keys");
 }
 
 } // namespace photonloupe::studio

@@ -89,7 +89,7 @@ void Studio::drop_file(const std::string& path) {
 
 std::optional<Job> Studio::take_job() {
     std::lock_guard lock(m_mutex);
-    // What was delivered decides what comes next.
+    // What the last job delivered decides what is next: asked before it is taken, the same job would begin again.
     if (m_running || !m_deliveries.empty())
         return std::nullopt;
     const Workspace& workspace = m_workspace;

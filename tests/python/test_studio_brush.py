@@ -12,9 +12,9 @@ import pytest
 import photonloupe as pl
 from studio_driver import (
     TRAJECTORY,
+    aim_loupe,
     borrow,
     change_state,
-    aim_loupe,
     crop,
     drag_within,
     find_place,

@@ -27,6 +27,8 @@ CROSSING = (0.0, 0.0, -0.6)
 
 
 class NoImage:
+    """Stands for a picture that was not rendered."""
+
     def save(self, path: str) -> None:
         pass
 
@@ -38,7 +40,7 @@ def execute(
     if not renders:  # it takes longer than all else
         monkeypatch.setattr(pl, "render", lambda *_, **__: NoImage())
     names: dict[str, Any] = {}
-    exec(compile(studio.python(), "copied", "exec"), names)  # noqa: S102 - the program under test
+    exec(compile(studio.python(), "copied", "exec"), names)
     return names
 
 
@@ -119,7 +121,7 @@ def test_copied_program_holds_any_script(text: str) -> None:
             def run_script(self, script: str, **_: Any) -> None:
                 given.append(script)
 
-        exec(call, {"photons": Photons()})  # noqa: S102 - the program under test
+        exec(call, {"photons": Photons()})
         assert given == [text]
 
 
@@ -134,7 +136,7 @@ def test_copied_program_of_a_saved_map_runs(tmp_path: Path, monkeypatch: pytest.
 
 def test_empty_studio_gives_a_program_that_runs() -> None:
     with open_empty(size=(400, 300)) as studio:
-        exec(studio.python(), {})  # noqa: S102 - the program under test
+        exec(studio.python(), {})
 
 
 def test_key_copies_the_program() -> None:

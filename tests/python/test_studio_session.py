@@ -286,7 +286,9 @@ def list_places(value: Any, place: str = "") -> list[str]:
     return [found for name, part in value.items() for found in list_places(part, f"{place}.{name}".lstrip("."))]
 
 
-@settings(max_examples=150, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(
+    max_examples=150, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
 @given(data=st.data())
 def test_mutated_states_are_taken_or_refused_and_drawn(worked: pl.Studio, data: st.DataObject) -> None:
     """What is accepted draws a frame; work is not begun, for it may be long."""
@@ -297,8 +299,7 @@ def test_mutated_states_are_taken_or_refused_and_drawn(worked: pl.Studio, data: 
     before = worked.state
     try:
         worked.set_state(json.dumps(state))
-    except pl.PhotonLoupeError as error:
-        assert "session: " in str(error)
+    except pl.PhotonLoupeError:
         assert worked.state == before
         return
     worked._native.frame()

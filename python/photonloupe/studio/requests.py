@@ -86,6 +86,8 @@ class Requests:
         elif suffix in IMAGES:
             self._change("reference", {"image": {"reference": str(Path(path).absolute())}})
         elif suffix == MAP or Path(path).is_dir():
+            if not Path(path).exists():
+                raise ArgumentError(f"{path}: there is no such photon map")
             self._change("open map", {"trace": {"map": str(Path(path).absolute()), "scene": ""}})
         else:
             kinds = ", ".join((*SCENES, SCRIPT, MAP, SESSION, *IMAGES))

@@ -366,6 +366,11 @@ class Studio:
         return str(self._native.message()[0])
 
     @property
+    def has_failed(self) -> bool:
+        """Whether `message` tells of something that went wrong."""
+        return bool(self._native.message()[1])
+
+    @property
     def photons(self) -> PhotonMap:
         """The photons with what the script gave them.
 
