@@ -16,6 +16,7 @@ import parallel_coordinates
 import relax
 import run_scripts
 import start_up
+import studio_frames
 import trace_paths
 from measure import Subject, print_subject
 from peer_nanoflann import Nanoflann
@@ -30,6 +31,7 @@ SUBJECTS: dict[str, Callable[[], Subject]] = {
     "run_scripts": run_scripts.measure,
     "relax": relax.measure,
     "parallel_coordinates": parallel_coordinates.measure,
+    "studio_frames": studio_frames.measure,
     "caustic_error": caustic_error.measure,
     "start_up": start_up.measure,
 }
