@@ -76,13 +76,21 @@ void deliver_photons(Studio& self, std::shared_ptr<const Scene> scene, std::shar
     });
 }
 
-void deliver_relaxed(Studio& self, std::shared_ptr<Photons> photons, const std::vector<std::array<double, 4>>& rows,
-                     double beta) {
+using StepRows = std::vector<std::array<double, 4>>;
+
+std::vector<studio::StepResult> read_steps(const StepRows& rows) {
     std::vector<studio::StepResult> steps;
     for (const auto& row : rows)
         steps.push_back({row[0], row[1], row[2], row[3]});
-    self.deliver([photons = std::move(photons), steps, beta](Workspace& workspace) {
-        workspace.take_relaxed(photons, steps, beta);
+    return steps;
+}
+
+void deliver_relaxed(Studio& self, std::shared_ptr<Photons> photons, const StepRows& rows,
+                     std::optional<std::uint32_t> stopped_at) {
+    self.deliver([photons = std::move(photons), steps = read_steps(rows), stopped_at](Workspace& workspace) {
+        workspace.take_relaxed(photons, steps);
+        if (stopped_at)
+            workspace.state.relax.made = std::min(workspace.state.relax.made, *stopped_at);
     });
 }
 
@@ -159,13 +167,17 @@ void bind_work(nb::class_<Studio>& type) {
                        bool is_error) { self.deliver([=](Workspace& workspace) { workspace.say(text, is_error); }); })
         .def("deliver_photons", &deliver_photons, nb::arg("scene").none(), nb::arg("photons"),
              nb::arg("has_same_paths"))
-        .def("deliver_relaxed", &deliver_relaxed, nb::arg("photons").none(), nb::arg("steps"), nb::arg("beta"))
+        .def("deliver_relaxed", &deliver_relaxed, nb::arg("photons").none(), nb::arg("steps"),
+             nb::arg("stopped_at").none())
+        .def("deliver_steps",
+             [](Studio& self, const StepRows& rows) {
+                 self.deliver([steps = read_steps(rows)](Workspace& workspace) { workspace.results.steps = steps; });
+             })
+        .def("forget_script",
+             [](Studio& self) { self.deliver([](Workspace& workspace) { workspace.results.script.reset(); }); })
         .def("deliver_isotropy", &deliver_isotropy)
         .def("deliver_script", &deliver_script)
-        .def("forget_work",
-             [](Studio& self, const std::string& kind) {
-                 self.deliver([=](Workspace& workspace) { workspace.done.erase(kind); });
-             })
+        .def("forget_work", &Studio::forget_work)
         .def("deliver_images", &deliver_images, nb::arg("image").none(), nb::arg("colors").none())
         .def("deliver_comparison", &deliver_comparison, nb::arg("reference").none(), nb::arg("error").none(),
              nb::arg("rmse"), nb::arg("relmse"), nb::arg("flip"))

@@ -129,6 +129,8 @@ std::string write_loupe(const StudioState& state, const std::vector<std::string>
     if (loupe.space != "constrained")
         return text + ",\n)\n"; // the others have no range to lock
     text += ", beta=" + write(loupe.beta);
+    if (loupe.space != "constrained")
+        return text + ",\n)\n";
     if (loupe.lock == "pin" && !loupe.pins.empty())
         text += ", center=" + std::to_string(loupe.pins.back());
     if (const std::string ranges = write_ranges(state.parallel, parameters); loupe.lock == "brushes" && !ranges.empty())

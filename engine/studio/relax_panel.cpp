@@ -123,9 +123,10 @@ void draw_curves(Workspace& workspace) {
         ui::say_empty("no step has been made; Step makes one, Run all of them");
         return;
     }
-    std::vector<double> numbers, moves, frequencies, noise;
+    std::vector<double> numbers, displacements, moves, frequencies, noise;
     for (const StepResult& step : steps) {
         numbers.push_back(static_cast<double>(numbers.size() + 1));
+        displacements.push_back(step.mean_displacement);
         moves.push_back(step.mean_move);
         frequencies.push_back(step.low_frequency);
         noise.push_back(step.noise);
@@ -133,11 +134,14 @@ void draw_curves(Workspace& workspace) {
     if (!ImPlot::BeginPlot("##steps", {-1, -1}, ImPlotFlags_NoMouseText))
         return;
     ImPlot::SetupAxes("step", nullptr, ImPlotAxisFlags_AutoFit, ImPlotAxisFlags_AutoFit);
+    ImPlot::SetupAxis(ImAxis_Y2, nullptr, ImPlotAxisFlags_AuxDefault | ImPlotAxisFlags_AutoFit);
     ImPlot::SetupLegend(ImPlotLocation_NorthEast);
     const int count = static_cast<int>(steps.size());
     ImPlot::PlotLine("mean move / r", numbers.data(), moves.data(), count);
     ImPlot::PlotLine("low-frequency power", numbers.data(), frequencies.data(), count);
     ImPlot::PlotLine("estimate noise", numbers.data(), noise.data(), count);
+    ImPlot::SetAxes(ImAxis_X1, ImAxis_Y2);
+    ImPlot::PlotLine("mean displacement [m]", numbers.data(), displacements.data(), count);
     ImPlot::EndPlot();
     ui::mark(workspace, "Relaxation/Curves");
 }

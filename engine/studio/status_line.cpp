@@ -148,6 +148,10 @@ void draw_key_list(Workspace& workspace) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({0.5f * size.x, 0.5f * size.y}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowSize({0, std::min(0.9f * size.y, 720 * workspace.scale)});
+    if (workspace.focus == "Keys") {
+        ImGui::SetNextWindowFocus();
+        workspace.focus.clear();
+    }
     if (ImGui::Begin("Keys", &workspace.shows_keys, ImGuiWindowFlags_NoDocking | ImGuiWindowFlags_NoCollapse)) {
         if (ImGui::BeginTable("##keys", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
             const auto row = [](const std::string& keys, const std::string& about) {

@@ -229,6 +229,11 @@ bool Studio::wait(double seconds) {
     const Current current(m_context, m_plots);
     if (!m_workspace.is_settled || ImGui::IsAnyItemActive() || has_input_left())
         m_draws_left = QUIET_FRAMES;
+    {
+        std::lock_guard lock(m_mutex);
+        if (!m_deliveries.empty())
+            m_draws_left = std::max(m_draws_left, 1u);
+    }
     if (m_window && wait_for_input(m_draws_left > 0 ? 0 : seconds))
         m_draws_left = QUIET_FRAMES;
     std::lock_guard lock(m_mutex);
@@ -288,7 +293,10 @@ void Studio::run_command(const std::string& name) {
 void Studio::set_state(const std::string& name, StudioState state) {
     m_workspace.history.record(name, m_workspace.state);
     m_workspace.history.end_gesture();
+    const bool is_same_map = m_workspace.state.trace == state.trace;
     m_workspace.state = std::move(state);
+    if (is_same_map) // else when its photons come
+        m_workspace.drop_unknown_ids();
     ++m_workspace.selection_version;
     ++m_workspace.loupe_version;
 }

@@ -219,10 +219,9 @@ void Workspace::take_isotropy(IsotropyResult isotropy) {
     ++results.photons_version; // views of the column are drawn anew
 }
 
-void Workspace::take_relaxed(std::shared_ptr<Photons> photons, std::vector<StepResult> steps, double beta) {
+void Workspace::take_relaxed(std::shared_ptr<Photons> photons, std::vector<StepResult> steps) {
     results.relaxed = std::move(photons);
     results.steps = std::move(steps);
-    results.relax_beta = beta;
     ++results.photons_version;
     drop_caches();
 }
@@ -230,7 +229,7 @@ void Workspace::take_relaxed(std::shared_ptr<Photons> photons, std::vector<StepR
 void Workspace::drop_unwanted() {
     if (!results.relaxed || state.relax.is_wanted())
         return;
-    take_relaxed(nullptr, {}, 0);
+    take_relaxed(nullptr, {});
     done.erase("relax");
 }
 

@@ -135,7 +135,7 @@ struct Workspace {
     // With `has_same_paths` they are those in view, of which a script changed the parameters alone.
     void take_photons(std::shared_ptr<const Scene> scene, std::shared_ptr<Photons> photons,
                       bool has_same_paths = false);
-    void take_relaxed(std::shared_ptr<Photons> photons, std::vector<StepResult> steps, double beta);
+    void take_relaxed(std::shared_ptr<Photons> photons, std::vector<StepResult> steps);
 
     void take_isotropy(IsotropyResult isotropy);
     // Ids that the map does not have leave selections and pins: of sessions of another map.
