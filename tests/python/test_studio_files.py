@@ -100,7 +100,7 @@ def test_nonsense_is_refused_with_a_word(small: pl.Studio, tmp_path: Path, name:
     before, count = small.state, len(small.photons)
     if name == "..":
         name = "../" + tmp_path.name + "/a.txt"
-    small.command("selection.clear")
+    small.selection = [0]
     small.command("edit.undo")
     small.drop(tmp_path / name)
     assert small.message
