@@ -23,6 +23,13 @@ std::unique_ptr<Studio> open_studio(OpenDevice& open, std::pair<std::uint32_t, s
     return std::make_unique<Studio>(open.device, studio::StudioOptions{size.first, size.second, scale, is_offscreen});
 }
 
+// Without the GIL: what waits for the device may wait for work that reports its progress to Python.
+template <class Work>
+auto run_free(const Work& work) {
+    nb::gil_scoped_release release;
+    return work();
+}
+
 nb::ndarray<nb::numpy, std::uint8_t, nb::ndim<3>> take_pixels(const std::vector<std::uint32_t>& pixels,
                                                               std::size_t width, std::size_t height) {
     std::vector<std::uint8_t> rgb;
@@ -55,7 +62,9 @@ nb::object read_selection(Studio& self) {
 
 void select(Studio& self, std::optional<std::vector<std::uint32_t>> ids) {
     Workspace& workspace = self.workspace();
-    workspace.change("select", [&](studio::StudioState&) {
+    workspace.change("select", [&](studio::StudioState& state) {
+        for (studio::AxisState& axis : state.parallel.axes)
+            axis.brushes.clear();
         workspace.select(ids ? std::make_shared<const std::vector<std::uint32_t>>(std::move(*ids)) : nullptr);
     });
 }
@@ -67,13 +76,21 @@ void deliver_photons(Studio& self, std::shared_ptr<const Scene> scene, std::shar
     });
 }
 
-void deliver_relaxed(Studio& self, std::shared_ptr<Photons> photons, const std::vector<std::array<double, 4>>& rows,
-                     double beta) {
+using StepRows = std::vector<std::array<double, 4>>;
+
+std::vector<studio::StepResult> read_steps(const StepRows& rows) {
     std::vector<studio::StepResult> steps;
     for (const auto& row : rows)
         steps.push_back({row[0], row[1], row[2], row[3]});
-    self.deliver([photons = std::move(photons), steps, beta](Workspace& workspace) {
-        workspace.take_relaxed(photons, steps, beta);
+    return steps;
+}
+
+void deliver_relaxed(Studio& self, std::shared_ptr<Photons> photons, const StepRows& rows,
+                     std::optional<std::uint32_t> stopped_at) {
+    self.deliver([photons = std::move(photons), steps = read_steps(rows), stopped_at](Workspace& workspace) {
+        workspace.take_relaxed(photons, steps);
+        if (stopped_at)
+            workspace.state.relax.made = std::min(workspace.state.relax.made, *stopped_at);
     });
 }
 
@@ -131,7 +148,7 @@ void bind_input(nb::class_<Studio>& type) {
         .def("hold_key", &Studio::hold_key)
         .def("type_text", &Studio::type_text)
         .def("drop_file", &Studio::drop_file)
-        .def("command", &Studio::run_command)
+        .def("command", &Studio::run_command, nb::call_guard<nb::gil_scoped_release>())
         .def("widget", [](const Studio& self, const std::string& name) { return describe_box(self.find_widget(name)); })
         .def("widgets", &Studio::list_widgets);
 }
@@ -150,13 +167,17 @@ void bind_work(nb::class_<Studio>& type) {
                        bool is_error) { self.deliver([=](Workspace& workspace) { workspace.say(text, is_error); }); })
         .def("deliver_photons", &deliver_photons, nb::arg("scene").none(), nb::arg("photons"),
              nb::arg("has_same_paths"))
-        .def("deliver_relaxed", &deliver_relaxed, nb::arg("photons").none(), nb::arg("steps"), nb::arg("beta"))
+        .def("deliver_relaxed", &deliver_relaxed, nb::arg("photons").none(), nb::arg("steps"),
+             nb::arg("stopped_at").none())
+        .def("deliver_steps",
+             [](Studio& self, const StepRows& rows) {
+                 self.deliver([steps = read_steps(rows)](Workspace& workspace) { workspace.results.steps = steps; });
+             })
+        .def("forget_script",
+             [](Studio& self) { self.deliver([](Workspace& workspace) { workspace.results.script.reset(); }); })
         .def("deliver_isotropy", &deliver_isotropy)
         .def("deliver_script", &deliver_script)
-        .def("forget_work",
-             [](Studio& self, const std::string& kind) {
-                 self.deliver([=](Workspace& workspace) { workspace.done.erase(kind); });
-             })
+        .def("forget_work", &Studio::forget_work)
         .def("deliver_images", &deliver_images, nb::arg("image").none(), nb::arg("colors").none())
         .def("deliver_comparison", &deliver_comparison, nb::arg("reference").none(), nb::arg("error").none(),
              nb::arg("rmse"), nb::arg("relmse"), nb::arg("flip"))
@@ -185,9 +206,13 @@ void bind_state(nb::class_<Studio>& type) {
              [](Studio& self, const std::string& path) { studio::save_session(path, self.workspace().state); })
         .def("load_session",
              [](Studio& self, const std::string& path) { self.set_state("open session", studio::load_session(path)); })
-        .def("python", [](Studio& self) { return studio::write_program(self.workspace()); })
-        .def("complete_state",
-             [](Studio& self) { return studio::write_state(studio::complete_state(self.workspace()), {}); })
+        .def(
+            "python", [](Studio& self) { return studio::write_program(self.workspace()); },
+            nb::call_guard<nb::gil_scoped_release>())
+        .def(
+            "complete_state",
+            [](Studio& self) { return studio::write_state(studio::complete_state(self.workspace()), {}); },
+            nb::call_guard<nb::gil_scoped_release>())
         .def("message",
              [](Studio& self) { return std::pair(self.workspace().message, self.workspace().message_is_error); })
         .def("look_at",
@@ -221,12 +246,16 @@ void bind_studio(nb::module_& module) {
         .def("hide", &Studio::hide)
         .def_prop_ro("should_close", &Studio::should_close)
         .def_prop_ro("size", [](const Studio& self) { return std::pair(self.width(), self.height()); })
-        .def("image", [](Studio& self) { return take_pixels(self.read_image(), self.width(), self.height()); })
+        .def("image",
+             [](Studio& self) {
+                 return take_pixels(run_free([&] { return self.read_image(); }), self.width(), self.height());
+             })
         .def("panel",
              [](Studio& self, const std::string& name, std::uint32_t width, std::uint32_t height, float scale) {
-                 return take_pixels(self.read_panel(name, width, height, scale), width, height);
+                 return take_pixels(run_free([&] { return self.read_panel(name, width, height, scale); }), width,
+                                    height);
              })
-        .def("resize", &Studio::resize)
+        .def("resize", &Studio::resize, nb::call_guard<nb::gil_scoped_release>())
         .def("statistics", [](Studio& self) {
             studio::FrameStatistics taken = self.take_statistics();
             nb::dict row;

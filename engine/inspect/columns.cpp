@@ -104,4 +104,13 @@ Column find_column(Workbench& bench, Photons& photons, const std::string& name, 
     throw Error("there is no column '" + name + "'; the columns are " + names);
 }
 
+std::vector<std::string> list_parameter_columns(const Photons& photons) {
+    const std::size_t count = photons.map.parameters ? photons.map.parameters->axes.size() : 0;
+    const std::vector<ColumnSource> sources = list_sources(photons); // those of parameters stand last
+    std::vector<std::string> names;
+    for (std::size_t i = sources.size() - count; i < sources.size(); ++i)
+        names.push_back(sources[i].name);
+    return names;
+}
+
 } // namespace photonloupe::inspect

@@ -23,6 +23,9 @@ struct ColumnInfo {
 // All columns, those included that cannot be had yet. A parameter whose name another column has is "parameter.NAME".
 std::vector<ColumnInfo> list_columns(const Photons& photons);
 
+// What columns call the parameters, in their order.
+std::vector<std::string> list_parameter_columns(const Photons& photons);
+
 // One of them, computed now. Throws Error naming the columns there are, or saying what the map lacks for it.
 Column find_column(Workbench& bench, Photons& photons, const std::string& name, const Progress& progress = {});
 

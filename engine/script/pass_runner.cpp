@@ -206,18 +206,17 @@ void PassRunner::run_batch(Work& work, std::uint32_t first_block, std::uint32_t 
     shared::ScriptPass push = work.push(m_photons, m_outputs, m_settings);
     push.lane_block = first_block;
     push.rounds = work.rounds;
-    const Progress quiet{[&](std::string_view, double fraction) {
+    // Asked between chunks, while the device is free: whoever listens may want it.
+    const Progress between{[&](std::string_view, double fraction) {
+        if (fraction > 0)
+            check_limits(work);
         m_progress.report(STAGE, (first_block + fraction * block_count) / count_blocks(m_photons.count));
-        return work.report.stopped.empty();
+        return work.report.stopped.empty() || fraction >= 1;
     }};
     const std::uint64_t most_blocks = m_device.limits().max_group_count / groups;
     gpu::run_in_chunks(
-        m_device, STAGE, block_count, 1, {},
+        m_device, STAGE, block_count, 1, between,
         [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
-            if (first > 0) {
-                check_limits(work);
-                quiet.report(STAGE, static_cast<double>(first) / block_count);
-            }
             push.first_block = first_block + static_cast<std::uint32_t>(first);
             push.block_count = static_cast<std::uint32_t>(count);
             for (std::uint32_t turn = 0; turn < dispatches; ++turn) {
@@ -226,7 +225,6 @@ void PassRunner::run_batch(Work& work, std::uint32_t first_block, std::uint32_t 
             }
         },
         most_blocks);
-    check_limits(work);
 }
 
 void PassRunner::run_blocks(Work& work) {

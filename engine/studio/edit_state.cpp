@@ -27,8 +27,8 @@ std::vector<AxisState> choose_axes(Workspace& workspace) {
         add(name, false);
     const Photons* photons = workspace.shown();
     if (photons && photons->map.parameters)
-        for (const ParameterAxis& parameter : photons->map.parameters->axes)
-            add(parameter.name, parameter.period > 0);
+        for (std::size_t i = 0; i < photons->map.parameters->axes.size(); ++i)
+            add(workspace.list_parameters()[i], photons->map.parameters->axes[i].period > 0);
     for (const inspect::ColumnInfo& info : workspace.list_columns())
         if (info.missing.empty() && (info.name == "signature" || (axes.size() < 6 && info.name.starts_with("primal_"))))
             add(info.name, info.period > 0);
@@ -36,7 +36,7 @@ std::vector<AxisState> choose_axes(Workspace& workspace) {
 }
 
 void after_jump(Workspace& workspace, const char* what, const std::string& name) {
-    workspace.drop_unknown_ids();
+    ++workspace.selection_version;
     ++workspace.loupe_version;
     workspace.say(std::string(what) + ": " + name);
 }
@@ -160,6 +160,10 @@ void look_straight(Workspace& workspace) {
 }
 
 void clear_selection(Workspace& workspace) {
+    if (workspace.shows_keys) {
+        workspace.shows_keys = false; // Escape closes what is open first
+        return;
+    }
     workspace.change("select nothing", [&](StudioState& state) {
         for (AxisState& axis : state.parallel.axes)
             axis.brushes.clear();
@@ -198,15 +202,21 @@ StudioState complete_state(Workspace& workspace) {
 }
 
 std::string write_program(Workspace& workspace) {
-    std::vector<std::string> parameters;
-    if (workspace.has_parameters())
-        for (const ParameterAxis& parameter : workspace.results.photons->map.parameters->axes)
-            parameters.push_back(parameter.name);
-    return write_python(complete_state(workspace), parameters);
+    StudioState state = complete_state(workspace);
+    // What the script no longer exposes is of an earlier text.
+    workspace.script.check(state.script.text, state.script.path.empty() ? "script" : state.script.path);
+    if (const script::CompiledScript* compiled = workspace.script.compiled();
+        compiled && state.script.ran == state.script.text)
+        std::erase_if(state.script.values, [&](const auto& entry) {
+            return std::none_of(compiled->program.exposed.begin(), compiled->program.exposed.end(),
+                                [&](auto index) { return compiled->program.variables[index].name == entry.first; });
+        });
+    return write_python(state, workspace.list_parameters());
 }
 
 void toggle_keys(Workspace& workspace) {
     workspace.shows_keys = !workspace.shows_keys;
+    workspace.focus = "Keys";
 }
 
 } // namespace photonloupe::studio

@@ -2,6 +2,7 @@
 // Counts by engine/inspect and plots with ImPlot.
 #include "studio/histogram_panel.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <imgui.h>
@@ -120,7 +121,8 @@ void HistogramPanel::draw_plot(Workspace& workspace) {
                          static_cast<int>(m_counted.cdf.size()));
         ImPlot::SetAxes(ImAxis_X1, ImAxis_Y1);
     }
-    double threshold = histogram.threshold;
+    double threshold =
+        std::clamp(static_cast<double>(histogram.threshold), m_counted.edges.front(), m_counted.edges.back());
     if (ImPlot::DragLineX(0, &threshold, {1.0f, 0.69f, 0.25f, 1}, 2))
         workspace.change("threshold",
                          [&](StudioState& state) { state.histogram.threshold = static_cast<float>(threshold); });

@@ -58,7 +58,7 @@ void ImagePanel::draw_choices(Workspace& workspace) {
 }
 
 void ImagePanel::draw_numbers(const Workspace& workspace) {
-    if (!workspace.results.comparison)
+    if (!workspace.results.comparison || workspace.state.image.reference.empty())
         return;
     const ComparisonResult& comparison = *workspace.results.comparison;
     ImGui::Text("RMSE %.4g   relMSE %.4g   FLIP %s", comparison.rmse, comparison.relmse,
@@ -68,12 +68,16 @@ void ImagePanel::draw_numbers(const Workspace& workspace) {
 void ImagePanel::draw_image(Workspace& workspace) {
     const Results& results = workspace.results;
     const ImageState& choices = workspace.state.image;
-    const std::optional<Image>& shown = choices.shows == "reference" ? results.reference
-                                        : choices.shows == "error"   ? results.error
-                                                                     : results.image;
+    static const std::optional<Image> none;
+    const bool has_reference = !choices.reference.empty();
+    const std::optional<Image>& shown = choices.shows != "image" && !has_reference ? none
+                                        : choices.shows == "reference"             ? results.reference
+                                        : choices.shows == "error"                 ? results.error
+                                                                                   : results.image;
     if (!shown) {
         ui::say_empty(choices.shows == "image"
-                          ? (results.scene ? "the image is being rendered" : "rendering needs a scene; open one")
+                          ? (results.scene ? workspace.explain_wait("render", "the image is being rendered")
+                                           : "rendering needs a scene; open one")
                           : "there is no reference; name one and press Compare, or Store this picture");
         return;
     }

@@ -63,8 +63,9 @@ ImGuiVulkan::ImGuiVulkan(gpu::Device& device) : m_device(device) {
 
 ImGuiVulkan::~ImGuiVulkan() {
     gpu::Device::Impl& gpu = m_device.impl();
-    std::lock_guard lock(gpu.mutex);
-    gpu.table.vkQueueWaitIdle(gpu.queue);
+    if (!gpu.lost_because.empty())
+        return;                      // work that never came back may still use them
+    std::lock_guard lock(gpu.mutex); // each batch is waited for: nothing runs now
     ImGui_ImplVulkan_Shutdown();
 }
 
@@ -85,6 +86,8 @@ std::uint64_t ImGuiVulkan::add_texture(const gpu::Texture& texture) {
 }
 
 void ImGuiVulkan::forget_texture(std::uint64_t id) {
+    if (!m_device.impl().lost_because.empty())
+        return;
     std::lock_guard lock(m_device.impl().mutex);
     ImGui_ImplVulkan_RemoveTexture(reinterpret_cast<VkDescriptorSet>(id));
 }

@@ -13,7 +13,7 @@
 namespace photonloupe::studio {
 namespace {
 
-constexpr std::size_t MOST_COLUMNS = 4; // of pins beside the cursor's
+constexpr std::size_t MOST_COLUMNS = 8; // of pins beside the cursor's
 
 struct NumberRow {
     std::string group; // as LoupeState::numbers names it

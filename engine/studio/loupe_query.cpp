@@ -16,11 +16,11 @@ inspect::LoupeSpace parse_space(const std::string& name) {
 }
 
 // The brushes of the parameters' axes; those without one take everything.
-void lock_to_ranges(const StudioState& state, const PhotonMap& map, inspect::LoupeQuery& query) {
-    for (const ParameterAxis& parameter : map.parameters->axes) {
+void lock_to_ranges(Workspace& workspace, inspect::LoupeQuery& query) {
+    for (const std::string& parameter : workspace.list_parameters()) {
         float low = -3e38f, high = 3e38f;
-        for (const AxisState& axis : state.parallel.axes)
-            if (axis.name == parameter.name && !axis.brushes.empty()) {
+        for (const AxisState& axis : workspace.state.parallel.axes)
+            if (axis.name == parameter && !axis.brushes.empty()) {
                 low = axis.brushes.front()[0];
                 high = axis.brushes.front()[1];
             }
@@ -29,7 +29,7 @@ void lock_to_ranges(const StudioState& state, const PhotonMap& map, inspect::Lou
     }
 }
 
-inspect::LoupeQuery make_query(const Workspace& workspace, const Photons& photons) {
+inspect::LoupeQuery make_query(Workspace& workspace, const Photons& photons) {
     const LoupeState& loupe = workspace.state.loupe;
     inspect::LoupeQuery query;
     query.k = loupe.k;
@@ -39,7 +39,7 @@ inspect::LoupeQuery make_query(const Workspace& workspace, const Photons& photon
         if (loupe.lock == "pin" && !loupe.pins.empty())
             query.pinned = loupe.pins.back();
         if (loupe.lock == "brushes")
-            lock_to_ranges(workspace.state, photons.map, query);
+            lock_to_ranges(workspace, query);
     }
     return query;
 }

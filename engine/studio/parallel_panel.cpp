@@ -3,6 +3,7 @@
 #include "studio/parallel_panel.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <numeric>
@@ -10,6 +11,7 @@
 #include <imgui.h>
 
 #include "core/error.h"
+#include "studio/edit_axes.h"
 #include "studio/edit_state.h"
 #include "studio/menus.h"
 #include "studio/theme.h"
@@ -18,8 +20,13 @@
 namespace photonloupe::studio {
 namespace {
 
+constexpr std::size_t MOST_AXES = 32; // as sessions hold
 constexpr ImU32 AXIS_COLOR = 0xffc8c8c8, DENSITY_COLOR = 0x70a0a0a0, BRUSH_COLOR = 0xa040b0ff;
 constexpr float DENSITY_WIDTH = 22;
+
+std::string write_bits(float value) {
+    return std::to_string(std::bit_cast<std::uint32_t>(value));
+}
 
 std::string write_key(const Workspace& workspace, std::uint32_t width, std::uint32_t height) {
     const ParallelState& parallel = workspace.state.parallel;
@@ -30,26 +37,12 @@ std::string write_key(const Workspace& workspace, std::uint32_t width, std::uint
     if (parallel.source == "loupe")
         key += " " + std::to_string(workspace.loupe_result_version);
     for (const AxisState& axis : parallel.axes) {
-        key += "|" + axis.name + " " + std::to_string(axis.low) + " " + std::to_string(axis.high) + " " +
+        key += "|" + axis.name + " " + write_bits(axis.low) + " " + write_bits(axis.high) + " " +
                std::to_string(axis.is_flipped) + std::to_string(axis.is_closed) + std::to_string(axis.periods);
         for (const auto& [low, high] : axis.brushes)
-            key += " " + std::to_string(low) + ":" + std::to_string(high);
+            key += " " + write_bits(low) + ":" + write_bits(high);
     }
     return key;
-}
-
-inspect::Axis make_axis(const AxisState& state, const std::vector<inspect::Column>& columns, std::size_t index) {
-    inspect::Axis axis = inspect::make_axis(columns, index);
-    if (state.low != state.high) {
-        axis.low = std::min(state.low, state.high);
-        axis.high = std::max(state.low, state.high);
-    }
-    axis.is_flipped = state.is_flipped;
-    axis.is_closed = state.is_closed;
-    axis.periods = std::max(state.periods, 1u);
-    for (const auto& [low, high] : state.brushes)
-        axis.brushes.push_back({low, high});
-    return axis;
 }
 
 inspect::Selection list_all(std::size_t count) {
@@ -66,34 +59,6 @@ std::string format(float value) {
     char text[32];
     std::snprintf(text, sizeof text, "%.3g", static_cast<double>(value));
     return text;
-}
-
-template <class Change>
-void change_axes(Workspace& workspace, const char* name, const Change& make) {
-    const std::vector<AxisState> axes = list_axes(workspace);
-    workspace.change(name, [&](StudioState& state) {
-        state.parallel.axes = axes;
-        make(state.parallel.axes);
-    });
-}
-
-// Zooms to the values of the photons that the plot shows.
-void fit_axis(Workspace& workspace, AxisState& axis) {
-    std::string missing;
-    const inspect::Column* column = workspace.seek_column(axis.name, missing);
-    const Ids ids = workspace.find_source(workspace.state.parallel.source);
-    if (!column || !ids)
-        return;
-    float low = INFINITY, high = -INFINITY;
-    for (const std::uint32_t id : *ids)
-        if (std::isfinite(column->values[id])) {
-            low = std::min(low, column->values[id]);
-            high = std::max(high, column->values[id]);
-        }
-    if (low < high) {
-        axis.low = low;
-        axis.high = high;
-    }
 }
 
 // The area between the axis and its density, a strip between two samples at a time.
@@ -114,26 +79,6 @@ void fill_density(const inspect::Axis& axis, const inspect::AxisPlace& stand, co
 
 } // namespace
 
-Ids find_brushed(Workspace& workspace) {
-    std::vector<inspect::Column> columns;
-    std::vector<inspect::Axis> axes;
-    for (const AxisState& axis : workspace.state.parallel.axes) {
-        std::string missing;
-        const inspect::Column* column = axis.brushes.empty() ? nullptr : workspace.seek_column(axis.name, missing);
-        if (!column)
-            continue;
-        columns.push_back(*column);
-        axes.push_back(make_axis(axis, columns, columns.size() - 1));
-    }
-    if (axes.empty())
-        return nullptr;
-    const std::string& source = workspace.state.parallel.source;
-    // A brush over the selection itself would only ever shrink it.
-    const Ids within = source == "loupe" ? workspace.find_source(source) : nullptr;
-    return std::make_shared<const std::vector<std::uint32_t>>(
-        inspect::select_brushed(axes, columns, within ? *within : inspect::Selection{}));
-}
-
 void ParallelPanel::find_axes(Workspace& workspace) {
     m_plot.names.clear();
     m_plot.places.clear();
@@ -148,7 +93,7 @@ void ParallelPanel::find_axes(Workspace& workspace) {
         m_plot.columns.push_back(*column);
         m_plot.names.push_back(axes[i].name);
         m_plot.places.push_back(i);
-        m_plot.axes.push_back(make_axis(axes[i], m_plot.columns, m_plot.columns.size() - 1));
+        m_plot.axes.push_back(make_plot_axis(axes[i], m_plot.columns, m_plot.columns.size() - 1));
     }
 }
 
@@ -266,78 +211,6 @@ void ParallelPanel::draw_axes(Workspace& workspace, float x, float y) {
     }
 }
 
-void ParallelPanel::brush(Workspace& workspace, float from, float to, bool is_new) {
-    const std::size_t at = m_plot.places[m_axis];
-    const bool wraps = m_plot.axes[m_axis].is_closed;
-    change_axes(workspace, "brush", [&](std::vector<AxisState>& axes) {
-        auto& brushes = axes[at].brushes;
-        if (is_new || brushes.empty())
-            brushes.push_back({});
-        brushes.back() = wraps ? std::array{from, to} : std::array{std::min(from, to), std::max(from, to)};
-        workspace.select(find_brushed(workspace));
-    });
-}
-
-void ParallelPanel::take_mouse(Workspace& workspace, float x, float y) {
-    const ImGuiIO& io = ImGui::GetIO();
-    const glm::vec2 pixel(io.MousePos.x - x, io.MousePos.y - y);
-    if (!m_plot.missing.empty() || m_plot.axes.empty())
-        return;
-    constexpr float REACH = 14;
-    if (ImGui::IsItemActivated()) {
-        const std::optional<std::size_t> axis = inspect::find_axis(m_plot.layout, pixel, REACH * workspace.scale);
-        m_grip = Grip::none;
-        m_has_moved = false;
-        if (axis) {
-            m_axis = *axis;
-            m_begin = inspect::find_value(m_plot.axes[m_axis], m_plot.layout.places[m_axis], pixel);
-            m_grip = ImGui::IsMouseDown(1) ? Grip::none
-                     : io.KeyAlt           ? Grip::move
-                     : io.KeyShift         ? Grip::zoom
-                                           : Grip::brush;
-            if (m_grip == Grip::brush)
-                brush(workspace, m_begin, m_begin, io.KeyCtrl);
-            if (m_grip == Grip::brush && !io.KeyCtrl)
-                change_axes(workspace, "brush", [&](std::vector<AxisState>& axes) {
-                    auto& brushes = axes[m_plot.places[m_axis]].brushes;
-                    brushes.erase(brushes.begin(), brushes.end() - 1);
-                });
-        }
-    }
-    m_has_moved |= ImGui::IsItemActive() && ImGui::IsMouseDragging(0, 2);
-    if (ImGui::IsItemActive() && m_grip == Grip::brush && m_has_moved)
-        brush(workspace, m_begin,
-              inspect::find_value(m_plot.axes[m_axis], m_plot.layout.places[m_axis], pixel, m_begin), false);
-    if (!ImGui::IsItemDeactivated())
-        return;
-    const std::size_t at = m_axis < m_plot.places.size() ? m_plot.places[m_axis] : 0;
-    if (m_grip == Grip::move)
-        change_axes(workspace, "move axis", [&](std::vector<AxisState>& axes) {
-            std::size_t to = 0;
-            for (std::size_t i = 0; i < m_plot.layout.places.size(); ++i)
-                if (i != m_axis && m_plot.layout.places[i].center.x < pixel.x)
-                    ++to;
-            const AxisState moved = axes[at];
-            axes.erase(axes.begin() + static_cast<std::ptrdiff_t>(at));
-            axes.insert(axes.begin() + static_cast<std::ptrdiff_t>(std::min(to, axes.size())), moved);
-        });
-    if (m_grip == Grip::zoom) {
-        const float end = inspect::find_value(m_plot.axes[m_axis], m_plot.layout.places[m_axis], pixel, m_begin);
-        change_axes(workspace, "zoom axis", [&](std::vector<AxisState>& axes) {
-            AxisState& axis = axes[at];
-            axis.low = std::min(m_begin, end);
-            axis.high = std::max(m_begin, end);
-        });
-    }
-    // A click takes the axis' brushes away.
-    if (m_grip == Grip::brush && !m_has_moved)
-        change_axes(workspace, "brush", [&](std::vector<AxisState>& axes) {
-            axes[at].brushes.clear();
-            workspace.select(find_brushed(workspace));
-        });
-    m_grip = Grip::none;
-}
-
 void ParallelPanel::draw_axis_menu(Workspace& workspace) {
     if (!ImGui::BeginPopup("axis"))
         return;
@@ -407,8 +280,10 @@ void ParallelPanel::draw_toolbar(Workspace& workspace) {
     ImGui::SetNextItemWidth(90 * workspace.scale);
     if (ui::choose_column(workspace, "Parallel coordinates/Add", "##add", added))
         change_axes(workspace, "add axis", [&](std::vector<AxisState>& axes) {
-            axes.emplace_back();
-            axes.back().name = added;
+            if (axes.size() < MOST_AXES) {
+                axes.emplace_back();
+                axes.back().name = added;
+            }
         });
     ImGui::SameLine();
     if (ui::button(workspace, "Parallel coordinates/FitAll", "Fit", "Every open axis to the photons shown"))

@@ -38,17 +38,19 @@ private:
     void draw_axes(Workspace& workspace, float x, float y);
     void draw_axis_menu(Workspace& workspace);
     void take_mouse(Workspace& workspace, float x, float y);
-    void brush(Workspace& workspace, float from, float to, bool is_new);
+    void grip_axis(float column, float row);
+    void release_axis(Workspace& workspace, float column, float end);
+    void brush(Workspace& workspace, float to);
 
     Plot m_plot;
     gpu::Buffer m_pixels;
     Grip m_grip = Grip::none;
     std::size_t m_axis = 0;   // the one held, or of the menu
     bool m_has_moved = false; // since the button went down
-    float m_begin = 0;        // value where the drag began
+    bool m_is_new = false;    // the brush of this drag is not there yet
+    bool m_adds = false;      // it leaves the axis' other brushes
+    float m_scale = 1;
+    float m_begin = 0; // value where the drag began
 };
-
-// The photons that all brushed axes choose, among those the plot shows; null without brushes.
-Ids find_brushed(Workspace& workspace);
 
 } // namespace photonloupe::studio

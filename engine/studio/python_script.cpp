@@ -126,8 +126,11 @@ std::string write_loupe(const StudioState& state, const std::vector<std::string>
         return "";
     std::string text = "view = pl.inspect.loupe(\n    " + name_shown(state) + ", " + write(loupe.point) +
                        ", k=" + std::to_string(loupe.k) + ", space=" + quote(loupe.space);
-    if (loupe.space == "constrained")
-        text += ", beta=" + write(loupe.beta);
+    if (loupe.space != "constrained")
+        return text + ",\n)\n"; // the others have no range to lock
+    text += ", beta=" + write(loupe.beta);
+    if (loupe.space != "constrained")
+        return text + ",\n)\n";
     if (loupe.lock == "pin" && !loupe.pins.empty())
         text += ", center=" + std::to_string(loupe.pins.back());
     if (const std::string ranges = write_ranges(state.parallel, parameters); loupe.lock == "brushes" && !ranges.empty())

@@ -12,6 +12,8 @@
 namespace photonloupe::studio {
 namespace {
 
+constexpr float LARGEST_THRESHOLD = 1e30f;
+
 template <class Change>
 void edit(Workspace& workspace, const char* name, const Change& make) {
     workspace.change(name, [&](StudioState& state) { make(state.relax.choices); });
@@ -102,7 +104,11 @@ void draw_choices(Workspace& workspace) {
         });
     std::array<float, 2> thresholds = now.thresholds;
     if (ImGui::InputFloat2("thresholds", thresholds.data(), "%.3g"))
-        edit(workspace, "thresholds", [&](RelaxChoices& state) { state.thresholds = thresholds; });
+        edit(workspace, "thresholds", [&](RelaxChoices& state) {
+            for (std::size_t i = 0; i < 2; ++i)
+                if (std::abs(thresholds[i]) <= LARGEST_THRESHOLD)
+                    state.thresholds[i] = thresholds[i];
+        });
     ui::mark(workspace, "Relaxation/Thresholds");
     ui::explain("Value of the descriptor that leaves a photon free, and the one that fixes it; equal: its own");
     ImGui::SameLine(0.5f * ImGui::GetContentRegionAvail().x);
@@ -117,9 +123,10 @@ void draw_curves(Workspace& workspace) {
         ui::say_empty("no step has been made; Step makes one, Run all of them");
         return;
     }
-    std::vector<double> numbers, moves, frequencies, noise;
+    std::vector<double> numbers, displacements, moves, frequencies, noise;
     for (const StepResult& step : steps) {
         numbers.push_back(static_cast<double>(numbers.size() + 1));
+        displacements.push_back(step.mean_displacement);
         moves.push_back(step.mean_move);
         frequencies.push_back(step.low_frequency);
         noise.push_back(step.noise);
@@ -127,11 +134,14 @@ void draw_curves(Workspace& workspace) {
     if (!ImPlot::BeginPlot("##steps", {-1, -1}, ImPlotFlags_NoMouseText))
         return;
     ImPlot::SetupAxes("step", nullptr, ImPlotAxisFlags_AutoFit, ImPlotAxisFlags_AutoFit);
+    ImPlot::SetupAxis(ImAxis_Y2, nullptr, ImPlotAxisFlags_AuxDefault | ImPlotAxisFlags_AutoFit);
     ImPlot::SetupLegend(ImPlotLocation_NorthEast);
     const int count = static_cast<int>(steps.size());
     ImPlot::PlotLine("mean move / r", numbers.data(), moves.data(), count);
     ImPlot::PlotLine("low-frequency power", numbers.data(), frequencies.data(), count);
     ImPlot::PlotLine("estimate noise", numbers.data(), noise.data(), count);
+    ImPlot::SetAxes(ImAxis_X1, ImAxis_Y2);
+    ImPlot::PlotLine("mean displacement [m]", numbers.data(), displacements.data(), count);
     ImPlot::EndPlot();
     ui::mark(workspace, "Relaxation/Curves");
 }

@@ -50,7 +50,6 @@ struct Results {
     std::uint64_t photons_version = 0; // rises with every change of photons or relaxed
     std::optional<ScriptResult> script;
     std::vector<StepResult> steps;
-    double relax_beta = 0; // that was used
     std::optional<IsotropyResult> isotropy;
     std::optional<Image> image;  // linear
     std::optional<Image> colors; // the same view in false color

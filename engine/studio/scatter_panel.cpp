@@ -12,7 +12,6 @@
 #include "core/error.h"
 #include "inspect/histogram.h"
 #include "inspect/photon_colors.h"
-#include "studio/parallel_panel.h"
 #include "studio/theme.h"
 #include "studio/widgets.h"
 

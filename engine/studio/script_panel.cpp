@@ -78,6 +78,7 @@ ScriptPanel::ScriptPanel(const Workspace& workspace) {
     TextEditor::AutoCompleteConfig completion;
     completion.callback = [this](TextEditor::AutoCompleteState& state) { suggest_names(state, m_editor); };
     completion.triggerOnTyping = !workspace.is_offscreen; // it waits for a clock
+    completion.triggerOnShortcut = !workspace.is_offscreen;
     m_editor.SetAutoCompleteConfig(&completion);
     m_editor.SetTextHoverCallback([this](TextEditor::PopupData& data) {
         const std::string word =
@@ -151,6 +152,7 @@ void ScriptPanel::draw_editor(Workspace& workspace) {
     if (text != m_text) {
         m_editor.SetText(text);
         m_text = text;
+        m_shown = m_editor.GetText(); // it ends lines its own way
         m_path = workspace.state.script.path;
     }
     workspace.script.check(text, workspace.state.script.path.empty() ? "script" : workspace.state.script.path);
@@ -162,10 +164,11 @@ void ScriptPanel::draw_editor(Workspace& workspace) {
     ImGui::PopFont();
     ui::mark(workspace, "Script/Editor");
     std::string edited = m_editor.GetText();
-    if (edited == m_text)
+    if (edited == m_shown)
         return;
     workspace.change("edit script", [&](StudioState& state) { state.script.text = edited; });
-    m_text = std::move(edited);
+    m_text = edited;
+    m_shown = std::move(edited);
 }
 
 void ScriptPanel::draw_sliders(Workspace& workspace) {

@@ -21,8 +21,9 @@ private:
     void mark_diagnostics(const ScriptDocument& document);
 
     TextEditor m_editor;
-    std::string m_text; // as the editor and the state last agreed on
-    std::string m_path; // in the field
+    std::string m_text;  // as the editor and the state last agreed on
+    std::string m_shown; // what the editor made of it
+    std::string m_path;  // in the field
     std::uint64_t m_marked_version = 0;
 };
 

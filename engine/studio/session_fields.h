@@ -9,7 +9,7 @@ namespace photonloupe::studio {
 constexpr std::size_t LONGEST_TEXT = 1u << 20; // of a script, as the compiler takes it
 constexpr std::size_t LONGEST_NAME = 256;
 constexpr std::size_t MOST_ENTRIES = 256;
-constexpr double LARGEST = 1e30;
+constexpr double LARGEST = 0x1p100; // a float too: rounding must not lead beyond it
 
 template <class Archive>
 void visit(Archive& archive, TraceState& trace) {

@@ -19,7 +19,8 @@ PixelShow::Entry& PixelShow::prepare(const std::string& name, std::uint32_t widt
     if (entry.texture && entry.texture->width() == width && entry.texture->height() == height)
         return entry;
     if (entry.id)
-        m_drawing->forget_texture(entry.id);
+        m_drawing->forget_texture(std::exchange(entry.id, 0));
+    entry.source = nullptr;
     entry.texture = std::make_unique<gpu::Texture>(m_device, width, height);
     entry.id = m_drawing->add_texture(*entry.texture);
     return entry;

@@ -21,6 +21,7 @@ struct TraceState {
     std::uint32_t seed = 1;
     std::string emission = "sobol";
     std::string store = "caustic";
+    bool operator==(const TraceState&) const = default;
 };
 
 struct ScriptState {
@@ -28,6 +29,7 @@ struct ScriptState {
     std::string text;                     // in the editor
     std::string ran;                      // the last text that ran; empty: none
     std::map<std::string, double> values; // of exposed variables, where they differ from the script's own
+    bool operator==(const ScriptState&) const = default;
 };
 
 enum class ViewMode { points = 1, voronoi, kd_tree, colored_points, render, colored_render, map };
@@ -37,6 +39,7 @@ struct CameraState {
     bool is_set = false; // false: fit what there is
     std::array<double, 3> target{};
     double yaw = 0.6, pitch = 0.7, distance = 1, yfov = 0.7;
+    bool operator==(const CameraState&) const = default;
 };
 
 struct ViewState {
@@ -49,6 +52,7 @@ struct ViewState {
     float brightness = 0.0f; // stops
     int tree_depth = -1;     // -1: leaves
     std::string map_column = "w_v";
+    bool operator==(const ViewState&) const = default;
 };
 
 struct LoupeState {
@@ -62,6 +66,7 @@ struct LoupeState {
     bool shows_paths = false;
     bool shows_drift = true;
     std::vector<std::string> numbers = {"position", "parameters", "flux", "signature", "eigenvalues", "w_v"};
+    bool operator==(const LoupeState&) const = default;
 };
 
 struct AxisState {
@@ -71,6 +76,7 @@ struct AxisState {
     bool is_closed = false;
     std::uint32_t periods = 1;
     std::vector<std::array<float, 2>> brushes;
+    bool operator==(const AxisState&) const = default;
 };
 
 struct ParallelState {
@@ -79,6 +85,7 @@ struct ParallelState {
     std::string source = "loupe";   // loupe, all, selection
     std::string color = "encoding"; // or a column
     bool shows_density = true;
+    bool operator==(const ParallelState&) const = default;
 };
 
 struct ScatterState {
@@ -86,6 +93,7 @@ struct ScatterState {
     bool is_polar = false;
     std::string source = "all";
     bool shows_pair = false; // the loupe's photons in world and parameter space side by side
+    bool operator==(const ScatterState&) const = default;
 };
 
 struct HistogramState {
@@ -93,6 +101,7 @@ struct HistogramState {
     std::uint32_t bins = 64;
     float threshold = 0.0f;
     bool shows_cdf = true;
+    bool operator==(const HistogramState&) const = default;
 };
 
 struct RelaxChoices {
@@ -120,6 +129,7 @@ struct RelaxState {
     std::uint32_t made = 0;   // steps
     bool is_measured = false; // the constraint is known, even of no steps
     bool is_wanted() const { return made > 0 || is_measured; }
+    bool operator==(const RelaxState&) const = default;
 };
 
 struct ImageState {
@@ -130,6 +140,7 @@ struct ImageState {
     std::uint32_t samples = 1;
     std::string reference;       // path of a picture to compare with
     std::string shows = "image"; // image, reference, error
+    bool operator==(const ImageState&) const = default;
 };
 
 struct StudioState {
@@ -144,6 +155,7 @@ struct StudioState {
     ImageState image;
     Ids selection;
     std::map<std::string, Ids> named; // selections by name
+    bool operator==(const StudioState&) const = default;
 };
 
 } // namespace photonloupe::studio

@@ -79,6 +79,15 @@ void draw_activity(Workspace& workspace) {
             workspace.requests.push_back("cancel");
         ImGui::EndDisabled();
     }
+    if (!workspace.failed.empty() && !activity.is_running) {
+        ImGui::SameLine();
+        if (ui::button(workspace, "Status/Retry", "Retry", "Do again what went wrong")) {
+            for (const auto& [kind, error] : workspace.failed)
+                workspace.done.erase(kind);
+            workspace.failed.clear();
+            workspace.say("");
+        }
+    }
     if (workspace.message.empty())
         return;
     ImGui::SameLine();
@@ -114,6 +123,9 @@ void draw_status_line(Workspace& workspace) {
                                  ImGuiInputTextFlags_EnterReturnsTrue))
         workspace.requests.push_back("open " + workspace.open_path);
     ui::mark(workspace, "Status/Open");
+    // What may have to be acted on stands first: a narrow window cuts the rest.
+    draw_restore_offer(workspace);
+    draw_activity(workspace);
     ImGui::SameLine();
     std::string told = workspace.device.info().name.substr(0, workspace.device.info().name.find(" ("));
     if (const Photons* photons = workspace.shown())
@@ -127,8 +139,6 @@ void draw_status_line(Workspace& workspace) {
         for (const auto& [stage, milliseconds] : workspace.stage_milliseconds)
             told += "  " + stage + " " + std::to_string(static_cast<int>(milliseconds)) + " ms";
     ImGui::TextDisabled("%s", told.c_str());
-    draw_restore_offer(workspace);
-    draw_activity(workspace);
     ImGui::End();
 }
 
@@ -138,7 +148,10 @@ void draw_key_list(Workspace& workspace) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({0.5f * size.x, 0.5f * size.y}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowSize({0, std::min(0.9f * size.y, 720 * workspace.scale)});
-    ImGui::SetNextWindowFocus();
+    if (workspace.focus == "Keys") {
+        ImGui::SetNextWindowFocus();
+        workspace.focus.clear();
+    }
     if (ImGui::Begin("Keys", &workspace.shows_keys, ImGuiWindowFlags_NoDocking | ImGuiWindowFlags_NoCollapse)) {
         if (ImGui::BeginTable("##keys", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit)) {
             const auto row = [](const std::string& keys, const std::string& about) {
@@ -161,8 +174,9 @@ void draw_key_list(Workspace& workspace) {
             ImGui::EndTable();
         }
     }
+    const ImVec2 low = ImGui::GetWindowPos(), extent = ImGui::GetWindowSize();
+    workspace.widgets["Keys"] = {low.x, low.y, extent.x, extent.y};
     ImGui::End();
-    ui::mark(workspace, "Keys");
 }
 
 } // namespace photonloupe::studio

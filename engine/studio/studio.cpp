@@ -72,6 +72,9 @@ Studio::Studio(gpu::Device& device, const StudioOptions& options)
     io.LogFilename = nullptr;
     io.ConfigFlags |= ImGuiConfigFlags_DockingEnable;
     io.ConfigInputTrickleEventQueue = true;
+    io.ConfigErrorRecoveryEnableAssert = false;
+    io.ConfigErrorRecoveryEnableTooltip = false;
+    io.ConfigErrorRecoveryEnableDebugLog = false;
     io.ConfigInputTextCursorBlink = !options.is_offscreen;
     m_workspace.is_offscreen = options.is_offscreen;
     m_workspace.scale = options.scale;
@@ -168,6 +171,22 @@ void Studio::lay_out() {
         m_workspace.history.end_gesture();
 }
 
+// What goes wrong in a panel is said, and the rest of the frame stands.
+void Studio::lay_out_safely() {
+    ImGuiErrorRecoveryState before;
+    ImGui::ErrorRecoveryStoreState(&before);
+    try {
+        lay_out();
+    } catch (const DeviceError&) {
+        ImGui::ErrorRecoveryTryToRecoverState(&before);
+        ImGui::EndFrame();
+        throw;
+    } catch (const Error& error) {
+        ImGui::ErrorRecoveryTryToRecoverState(&before);
+        m_workspace.say(error.what(), true);
+    }
+}
+
 void Studio::frame() {
     const Current current(m_context, m_plots);
     take_deliveries();
@@ -176,7 +195,7 @@ void Studio::frame() {
     for (int pass = 0; pass < MOST_PASSES && quiet < QUIET_FRAMES; ++pass) {
         const bool had_input = has_input_left();
         begin_frame();
-        lay_out();
+        lay_out_safely();
         ImGui::Render();
         quiet = had_input || !m_workspace.is_settled ? 0 : quiet + 1;
         if (m_window)
@@ -210,6 +229,11 @@ bool Studio::wait(double seconds) {
     const Current current(m_context, m_plots);
     if (!m_workspace.is_settled || ImGui::IsAnyItemActive() || has_input_left())
         m_draws_left = QUIET_FRAMES;
+    {
+        std::lock_guard lock(m_mutex);
+        if (!m_deliveries.empty())
+            m_draws_left = std::max(m_draws_left, 1u);
+    }
     if (m_window && wait_for_input(m_draws_left > 0 ? 0 : seconds))
         m_draws_left = QUIET_FRAMES;
     std::lock_guard lock(m_mutex);
@@ -248,6 +272,7 @@ std::vector<std::uint32_t> Studio::read_panel(const std::string& name, std::uint
     copy.results = m_workspace.results;
     copy.done = m_workspace.done;
     copy.loupe = m_workspace.loupe;
+    copy.loupe_normal = m_workspace.loupe_normal;
     copy.pinned = m_workspace.pinned;
     alone.frame();
     return alone.read_image();
@@ -268,8 +293,10 @@ void Studio::run_command(const std::string& name) {
 void Studio::set_state(const std::string& name, StudioState state) {
     m_workspace.history.record(name, m_workspace.state);
     m_workspace.history.end_gesture();
+    const bool is_same_map = m_workspace.state.trace == state.trace;
     m_workspace.state = std::move(state);
-    m_workspace.drop_unknown_ids();
+    if (is_same_map) // else when its photons come
+        m_workspace.drop_unknown_ids();
     ++m_workspace.selection_version;
     ++m_workspace.loupe_version;
 }

@@ -89,6 +89,8 @@ public:
     // The work has ended, well or not (empty: well).
     void end_job(const Job& job, const std::string& error);
     void stop_job();
+    // For any thread: work of that kind is done again, also what is running now.
+    void forget_work(const std::string& kind);
 
     FrameStatistics take_statistics();
     // Requests of files and sessions for whoever owns them.
@@ -100,6 +102,7 @@ private:
     void draw_frame();
     void take_deliveries();
     void lay_out();
+    void lay_out_safely();
     bool has_input_left() const;
 
     Workbench m_bench; // of this thread: the work has its own
@@ -116,6 +119,7 @@ private:
     std::vector<std::function<void(Workspace&)>> m_deliveries;
     std::optional<Job> m_running;
     bool m_stop = false;
+    bool m_is_stale = false; // what runs now is to be done again
     std::string m_progress_stage;
     double m_progress = 0;
     double m_chunk_milliseconds = 0; // of the device before the studio was opened

@@ -89,14 +89,16 @@ void Studio::drop_file(const std::string& path) {
 
 std::optional<Job> Studio::take_job() {
     std::lock_guard lock(m_mutex);
-    if (m_running)
+    // What the last job delivered decides what is next: asked before it is taken, the same job would begin again.
+    if (m_running || !m_deliveries.empty())
         return std::nullopt;
     const Workspace& workspace = m_workspace;
     const Wanted wanted{workspace.wants_render, workspace.wants_isotropy};
-    const Holding holding{workspace.results.photons != nullptr, workspace.has_parameters(),
-                          workspace.results.photons_version};
+    const Holding holding{workspace.results.photons != nullptr, workspace.results.scene != nullptr,
+                          workspace.has_parameters(), workspace.results.photons_version};
     m_running = plan_work(workspace.state, find_pose(workspace.state.view.camera), wanted, holding, workspace.done);
     m_stop = false;
+    m_is_stale = false;
     m_progress = 0;
     m_progress_stage = m_running ? m_running->kind : "";
     return m_running;
@@ -116,17 +118,35 @@ bool Studio::report_progress(const std::string& stage, double fraction) {
 
 // What was asked for may have changed meanwhile: then the result is one of the past, and plan_work asks again.
 void Studio::end_job(const Job& job, const std::string& error) {
-    deliver([job, error](Workspace& workspace) {
-        workspace.done[job.kind] = job.key;
+    bool is_stale = false;
+    {
+        std::lock_guard lock(m_mutex);
+        is_stale = m_is_stale;
+    }
+    deliver([job, error, is_stale](Workspace& workspace) {
+        if (!is_stale)
+            workspace.done[job.kind] = job.key;
         // Photons are traced or loaded: one takes the other's place.
         if (job.kind == "trace" || job.kind == "map")
             workspace.done.erase(job.kind == "trace" ? "map" : "trace");
-        if (!error.empty())
+        // The script has not run over them.
+        if (job.kind == "trace" || job.kind == "map")
+            workspace.done.erase("script");
+        workspace.failed.erase(job.kind);
+        if (!error.empty()) {
+            workspace.failed[job.kind] = error;
             workspace.say(error, true);
+        }
     });
     std::lock_guard lock(m_mutex);
     m_running.reset();
     m_stop = false;
+}
+
+void Studio::forget_work(const std::string& kind) {
+    deliver([kind](Workspace& workspace) { workspace.done.erase(kind); });
+    std::lock_guard lock(m_mutex);
+    m_is_stale |= m_running && m_running->kind == kind;
 }
 
 void Studio::stop_job() {

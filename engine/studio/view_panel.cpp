@@ -121,7 +121,8 @@ void ViewPanel::draw_toolbar(Workspace& workspace) {
         ImGui::SameLine();
         ImGui::SetNextItemWidth(110 * workspace.scale);
         int depth = view.tree_depth;
-        if (ImGui::SliderInt("##depth", &depth, -1, 24, depth < 0 ? "leaves" : "depth %d"))
+        if (ImGui::SliderInt("##depth", &depth, -1, 24, depth < 0 ? "leaves" : "depth %d",
+                             ImGuiSliderFlags_AlwaysClamp))
             workspace.change("tree depth", [&](StudioState& state) { state.view.tree_depth = depth; });
         ui::mark(workspace, "View/Depth");
     }

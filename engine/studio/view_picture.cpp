@@ -159,7 +159,7 @@ void ViewPicture::draw_render(Workspace& workspace, std::string& missing) {
     if (!image) {
         missing = is_colored && !workspace.results.photons->map.colors
                       ? "the photons have no false colors; run a script that calls setPhotonColourEncoding"
-                      : "the image is being rendered";
+                      : workspace.explain_wait("render", "the image is being rendered");
         return;
     }
     workspace.pixels.set(m_texture, image->width, image->height, map_tones(*image, workspace.state.image));
@@ -194,20 +194,24 @@ void ViewPicture::update(Workspace& workspace, bool relaxed, std::uint32_t width
     if (key == m_key)
         return;
     missing.clear();
-    see(workspace, columns, rows);
-    switch (state.view.mode) {
-    case ViewMode::voronoi:
-    case ViewMode::kd_tree:
-        draw_cells(workspace, *photons, missing);
-        break;
-    case ViewMode::render:
-    case ViewMode::colored_render:
-        draw_render(workspace, missing);
-        break;
-    default:
-        if (find_what_is_missing(workspace, *photons, missing))
+    try {
+        see(workspace, columns, rows);
+        switch (state.view.mode) {
+        case ViewMode::voronoi:
+        case ViewMode::kd_tree:
+            draw_cells(workspace, *photons, missing);
             break;
-        draw_points(workspace, *photons, columns, rows);
+        case ViewMode::render:
+        case ViewMode::colored_render:
+            draw_render(workspace, missing);
+            break;
+        default:
+            if (find_what_is_missing(workspace, *photons, missing))
+                break;
+            draw_points(workspace, *photons, columns, rows);
+        }
+    } catch (const Error& error) {
+        missing = error.what();
     }
     m_missing = missing;
     m_key = key;

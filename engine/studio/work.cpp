@@ -86,7 +86,7 @@ std::optional<Job> plan_work(const StudioState& state, const CameraPose& camera,
     const std::string version = std::to_string(holding.photons_version);
     if (wanted.isotropy && holding.parameters && ask(job, done, "isotropy", script_key, Settings::object()))
         return job;
-    if (wanted.image && !state.trace.scene.empty()) {
+    if (wanted.image && holding.scene) {
         Settings render{{"camera", describe_camera(camera)},
                         {"k", state.image.k},
                         {"samples", state.image.samples},

@@ -31,6 +31,7 @@ struct Wanted {
 // What earlier work has left.
 struct Holding {
     bool photons = false; // false though they were traced: that failed, and nothing can follow
+    bool scene = false;
     bool parameters = false;
     std::uint64_t photons_version = 0;
 };

@@ -85,7 +85,11 @@ const inspect::Column& Workspace::find_column(const std::string& name, Photons* 
         return found->second;
     // Neighbours of every photon in parameter space take too long for a frame.
     if (name == ISOTROPY && photons->map.parameters) {
+        if (photons != results.photons.get())
+            throw Error("isotropy is that of the photons before relaxation; show those (Tab)");
         wants_isotropy = true;
+        if (const auto error = failed.find("isotropy"); error != failed.end())
+            throw Error(error->second);
         if (!results.isotropy)
             throw Error("isotropy is being measured");
         return m_columns[key] = {name, "isotropy t", results.isotropy->values, 0, 1};
@@ -116,6 +120,17 @@ const std::vector<inspect::ColumnInfo>& Workspace::list_columns() {
     return infos;
 }
 
+const std::vector<std::string>& Workspace::list_parameters() {
+    static const std::vector<std::string> none;
+    Photons* photons = shown();
+    if (!photons || !photons->map.parameters)
+        return none;
+    std::vector<std::string>& names = m_parameters[photons];
+    if (names.empty())
+        names = inspect::list_parameter_columns(*photons);
+    return names;
+}
+
 const std::vector<std::uint32_t>& Workspace::find_colors(const std::string& name, Photons* photons) {
     static const std::vector<std::uint32_t> none;
     photons = photons ? photons : shown();
@@ -125,11 +140,16 @@ const std::vector<std::uint32_t>& Workspace::find_colors(const std::string& name
     const auto found = m_colors.find(key);
     if (found != m_colors.end())
         return found->second;
+    if (name == ENCODING)
+        return m_colors[key] = pack_encoding(photons->map);
     std::string missing;
-    const inspect::Column* column = name == ENCODING ? nullptr : seek_column(name, missing, photons);
-    return m_colors[key] = name == ENCODING ? pack_encoding(photons->map)
-                           : column         ? pack_column(*column)
-                                            : std::vector<std::uint32_t>{};
+    const inspect::Column* column = seek_column(name, missing, photons);
+    return column ? m_colors[key] = pack_column(*column) : none; // it may be there in a later frame
+}
+
+std::string Workspace::explain_wait(const std::string& kind, const char* waiting) const {
+    const auto error = failed.find(kind);
+    return error == failed.end() ? waiting : error->second + "; Retry in the status line tries again";
 }
 
 void Workspace::select(Ids ids) {
@@ -196,14 +216,12 @@ void Workspace::drop_unknown_ids() {
 
 void Workspace::take_isotropy(IsotropyResult isotropy) {
     results.isotropy = std::move(isotropy);
-    state.histogram.threshold = static_cast<float>(results.isotropy->threshold);
     ++results.photons_version; // views of the column are drawn anew
 }
 
-void Workspace::take_relaxed(std::shared_ptr<Photons> photons, std::vector<StepResult> steps, double beta) {
+void Workspace::take_relaxed(std::shared_ptr<Photons> photons, std::vector<StepResult> steps) {
     results.relaxed = std::move(photons);
     results.steps = std::move(steps);
-    results.relax_beta = beta;
     ++results.photons_version;
     drop_caches();
 }
@@ -211,7 +229,7 @@ void Workspace::take_relaxed(std::shared_ptr<Photons> photons, std::vector<StepR
 void Workspace::drop_unwanted() {
     if (!results.relaxed || state.relax.is_wanted())
         return;
-    take_relaxed(nullptr, {}, 0);
+    take_relaxed(nullptr, {});
     done.erase("relax");
 }
 
@@ -219,6 +237,7 @@ void Workspace::drop_caches() {
     m_columns.clear();
     m_colors.clear();
     m_infos.clear();
+    m_parameters.clear();
     loupe.reset();
     pinned.clear();
     ++loupe_version;

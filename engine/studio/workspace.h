@@ -57,6 +57,7 @@ struct Workspace {
     History history;
     Results results;
     DoneWork done;
+    std::map<std::string, std::string> failed; // kinds of work that went wrong, and how
     Activity activity;
     ScriptDocument script;
     std::vector<ExampleScript> examples;
@@ -100,11 +101,13 @@ struct Workspace {
     void drop_unwanted();
     bool has_parameters() const { return results.photons && results.photons->map.parameters.has_value(); }
 
-    // A command: goes into the history under its name, then changes the state.
+    // A command: changes the state and goes into the history under its name, if there was anything to change.
     template <class Change>
     void change(const std::string& name, const Change& make) {
-        history.record(name, state);
+        const StudioState before = state;
         make(state);
+        if (!(state == before))
+            history.record(name, before);
     }
     void say(std::string text, bool is_error = false) {
         message = std::move(text);
@@ -116,6 +119,10 @@ struct Workspace {
     // The same, or null with what to do in `missing`.
     const inspect::Column* seek_column(const std::string& name, std::string& missing, Photons* photons = nullptr);
     const std::vector<inspect::ColumnInfo>& list_columns();
+    // What columns call the parameters, in their order.
+    const std::vector<std::string>& list_parameters();
+    // Why something is not there yet: the work is under way (`waiting`), or it went wrong.
+    std::string explain_wait(const std::string& kind, const char* waiting) const;
     // sRGB colors of photons, by id: the script's encoding, or a column through a color map. Empty: grey.
     const std::vector<std::uint32_t>& find_colors(const std::string& name, Photons* photons = nullptr);
 
@@ -128,7 +135,7 @@ struct Workspace {
     // With `has_same_paths` they are those in view, of which a script changed the parameters alone.
     void take_photons(std::shared_ptr<const Scene> scene, std::shared_ptr<Photons> photons,
                       bool has_same_paths = false);
-    void take_relaxed(std::shared_ptr<Photons> photons, std::vector<StepResult> steps, double beta);
+    void take_relaxed(std::shared_ptr<Photons> photons, std::vector<StepResult> steps);
 
     void take_isotropy(IsotropyResult isotropy);
     // Ids that the map does not have leave selections and pins: of sessions of another map.
@@ -149,6 +156,7 @@ private:
     Columns m_columns;
     std::map<ColumnKey, std::vector<std::uint32_t>> m_colors;
     std::map<const Photons*, std::vector<inspect::ColumnInfo>> m_infos;
+    std::map<const Photons*, std::vector<std::string>> m_parameters;
 };
 
 } // namespace photonloupe::studio

@@ -61,6 +61,8 @@ def borrow(studio: pl.Studio, **parts: dict[str, Any]) -> Iterator[pl.Studio]:
     for button in ("left", "right"):
         studio.mouse_button(button, False)
     studio.key("escape")
+    if "Keys" in studio.widgets():
+        studio.key("?")
     for name in ("Parallel coordinates", "Histogram"):
         show_panel(studio, name)
     studio.mouse_move(1, 1)

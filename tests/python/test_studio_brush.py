@@ -12,8 +12,9 @@ import pytest
 import photonloupe as pl
 from studio_driver import (
     TRAJECTORY,
-    borrow,
     aim_loupe,
+    borrow,
+    change_state,
     crop,
     drag_within,
     find_place,
@@ -108,6 +109,7 @@ def test_click_on_an_axis_takes_its_brushes_away(studio: pl.Studio) -> None:
 
 @pytest.mark.parametrize("mode", ["1", "2", "4", "7"])
 def test_selection_lights_up_in_the_view(studio: pl.Studio, mode: str) -> None:
+    change_state(studio, view={"map_column": "z"})
     studio.key(mode)
     view = crop(studio, "View/Picture")
     studio.selection = np.arange(0, len(studio.photons), 2)
@@ -220,6 +222,15 @@ def test_selection_is_named_and_chosen_again(studio: pl.Studio) -> None:
     studio.press("Selection/three")
     assert studio.selection is not None
     assert studio.selection.tolist() == [5, 6, 7]
+
+
+def test_selection_of_python_takes_the_place_of_brushes(studio: pl.Studio) -> None:
+    brush(studio, "x", 0.3, 0.6)
+    studio.selection = [1, 2]
+    studio.key("2")
+    assert studio.selection is not None
+    assert studio.selection.tolist() == [1, 2]
+    assert read_brushes(studio) == {}
 
 
 @pytest.mark.parametrize("ids", [[-1], [10**9], [0.5], "all"])

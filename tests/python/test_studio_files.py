@@ -25,7 +25,11 @@ def small() -> Iterator[pl.Studio]:
 def write_lamp(folder: Path) -> Path:
     """A lamp over a floor, with a mirror above that makes a caustic."""
     folder.mkdir(exist_ok=True)
-    return write_scene(folder, "lamp", lambda writer: writer.add_mesh("mirror", build_quad(0.5, 2.0), make_mirror("m", (0.9, 0.9, 0.9))))
+    return write_scene(
+        folder,
+        "lamp",
+        lambda writer: writer.add_mesh("mirror", build_quad(0.5, 2.0), make_mirror("m", (0.9, 0.9, 0.9))),
+    )
 
 
 def test_dropped_scene_is_traced(tmp_path: Path) -> None:

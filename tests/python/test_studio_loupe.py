@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The loupe in the view: what it finds under the cursor, its size and space, pins, and a range locked to one filament."""
+"""The loupe in the view: what it finds under the cursor, its size and space, pins, a range locked to one filament."""
 
 from __future__ import annotations
 
@@ -231,6 +231,6 @@ def test_loupe_shows_the_world_and_parameter_space_side_by_side() -> None:
         assert read_state(studio)["scatter"]["shows_pair"]
         before = studio.image()
         move_to(studio, "View/Picture", 0.4, 0.6)
-        x, y, width, height = (round(v) for v in studio.widget("Parameter space/Pair"))
+        _x, y, _width, height = (round(v) for v in studio.widget("Parameter space/Pair"))
         below = np.s_[y + 2 * height :, 285:900]
         assert not np.array_equal(before[below], studio.image()[below])

@@ -27,7 +27,8 @@ from photonloupe.device import open_device
 SUMMARY = "the ring case study, pictures into out/demo/"
 DESCRIPTION = (
     "Trace the gold ring, save its photon map, render its caustic, composite and photons; run scripts over it and show "
-    "their parameters in false color; then relax a noisier map of it in three ways and show them side by side, and in the studio."
+    "their parameters in false color; then relax a noisier map of it in three ways and show them side by side, and "
+    "in the studio."
 )
 
 _SCENE = Path("scenes", "ring", "ring.gltf")

@@ -64,6 +64,8 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _draw(arguments: argparse.Namespace, studio: pl.Studio, size: tuple[int, int]) -> int:
     studio.frame()
+    if studio.has_failed:
+        raise ArgumentError(studio.message)
     if arguments.panel is None:
         studio.save_image(arguments.screenshot)
     else:

@@ -57,7 +57,7 @@ class Requests:
         elif verb == "save_script":
             self._save_script(argument)
         elif verb == "save_session":
-            self.save_session(argument or self._session or _DEFAULT_SESSION)
+            self.save_session(argument or self._session or _find_free_name(_DEFAULT_SESSION))
         elif verb == "store_reference":
             self._store_reference()
         elif verb == "export":
@@ -86,6 +86,8 @@ class Requests:
         elif suffix in IMAGES:
             self._change("reference", {"image": {"reference": str(Path(path).absolute())}})
         elif suffix == MAP or Path(path).is_dir():
+            if not Path(path).exists():
+                raise ArgumentError(f"{path}: there is no such photon map")
             self._change("open map", {"trace": {"map": str(Path(path).absolute()), "scene": ""}})
         else:
             kinds = ", ".join((*SCENES, SCRIPT, MAP, SESSION, *IMAGES))
@@ -93,18 +95,17 @@ class Requests:
 
     def open_scene(self, scene: pl.Scene | str | os.PathLike[str], photons: int | None) -> None:
         """Open a scene and trace it."""
-        if isinstance(scene, pl.Scene):
-            self._stages.scene = scene
-            path = str(Path(scene.path).absolute())
-        else:
-            path = str(Path(scene).absolute())
-            # What is wrong with it is said before the old one goes.
-            self._stages.scene = pl.load_scene(path)
+        path = str(Path(scene.path if isinstance(scene, pl.Scene) else scene).absolute())
+        # What is wrong with it is said before the old one goes.
+        self._stages.open_scene(scene if isinstance(scene, pl.Scene) else pl.load_scene(path))
         self._native.forget_work("trace")  # the file may have changed
         trace: dict[str, Any] = {"scene": path, "map": ""}
         if photons is not None:
             trace["photons"] = photons
-        self._change("open scene", {"trace": trace, "view": {"camera": {"is_set": False}}})
+        change: dict[str, dict[str, Any]] = {"trace": trace}
+        if path != json.loads(self._native.state())["trace"]["scene"]:
+            change["view"] = {"camera": {"is_set": False}}
+        self._change("open scene", change)
         self._watch(path)
 
     def open_script(self, script: str | os.PathLike[str] | pl.Script, *, runs: bool) -> None:
@@ -206,9 +207,20 @@ class Requests:
     def _store_reference(self) -> None:
         if self._stages.image is None:
             raise ArgumentError("there is no picture to store yet; it is being rendered")
-        path = Path("reference.exr").absolute()
+        path = Path(_find_free_name("reference.exr")).absolute()
         self._stages.image.save(path)
         self._change("store reference", {"image": {"reference": str(path)}})
+
+
+def _find_free_name(name: str) -> str:
+    """Return the name, or with a number the first that no file has: nothing is overwritten unasked."""
+    wanted = Path(name)
+    number = 1
+    path = wanted
+    while path.exists():
+        number += 1
+        path = wanted.with_stem(f"{wanted.stem}-{number}")
+    return str(path)
 
 
 def _merge(target: dict[str, Any], fields: dict[str, Any]) -> None:

@@ -64,7 +64,7 @@ def _estimate(squared: NDArray[np.float64], k: int) -> NDArray[np.float64]:
 
 
 def _measure_deviation(values: NDArray[np.float64]) -> float:
-    """Standard deviation, by medians."""
+    """Measure the standard deviation, by medians."""
     values = values[np.isfinite(values)]
     return float(_DEVIATION * np.median(np.abs(values - np.median(values)))) if len(values) else math.nan
 

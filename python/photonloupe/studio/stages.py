@@ -41,10 +41,15 @@ class Stages:
         self._spare: pl.PhotonMap | None = None
         self.relaxed: pl.PhotonMap | None = None
         self.image: pl.Image | None = None
+        self._opened: pl.Scene | None = None  # takes the scene's place with the next trace
         self._relaxation: pl.Relaxation | None = None
         self._relaxation_key = ""
         self._rows: list[tuple[float, float, float, float]] = []
         self._milliseconds: dict[str, float] = {}
+
+    def open_scene(self, scene: pl.Scene) -> None:
+        """Take a scene's place when photons are traced next; from any thread."""
+        self._opened = scene
 
     def run(self, kind: str, settings: dict[str, Any], progress: Progress) -> None:
         """Do one job and hand its result to the interface."""
@@ -64,6 +69,8 @@ class Stages:
 
     def _trace(self, settings: dict[str, Any], progress: Progress) -> None:
         path = settings["scene"]
+        opened, self._opened = self._opened, None
+        self.scene = opened or self.scene
         if self.scene is None or str(Path(self.scene.path).absolute()) != path:
             self.scene = pl.load_scene(path)
         photons = pl.trace_photons(
@@ -72,10 +79,12 @@ class Stages:
             seed=settings["seed"],
             emission=settings["emission"],
             store=settings["store"],
+            columns=PATH_NAMES,
             device=self._device,
             progress=progress,
         )
-        self._take_photons(photons)
+        # The engine hands the same map to whoever asks for the same photons again: ours is shown from another thread.
+        self._take_photons(photons.select(np.arange(len(photons))))
 
     def _load_map(self, settings: dict[str, Any], progress: Progress) -> None:
         photons = pl.load_photons(settings["map"], device=self._device)
@@ -132,18 +141,19 @@ class Stages:
         milliseconds = _MILLISECONDS * (time.perf_counter() - start)
         # What was shown until now is free for the next run, unless it is the map as it was traced.
         shown = self.photons
-        self._show(target, has_same_paths=True)
-        self._spare = None if shown is self.traced else shown
         self._native.deliver_script(
             [_describe_histogram(name, histogram) for name, histogram in run.histograms.items()],
             list(run.prints),
             _describe_report(run),
             milliseconds,
         )
+        self._show(target, has_same_paths=True)
+        self._spare = None if shown is self.traced else shown
 
     def _load_again(self) -> None:
         assert self.traced is not None
         self._spare = None
+        self._native.forget_script()
         self._show(self.traced, has_same_paths=True)
 
     def _relax(self, settings: dict[str, Any], progress: Progress) -> None:
@@ -154,19 +164,28 @@ class Stages:
             self._relaxation = pl.Relaxation(self.photons, progress=progress, **settings)
             self._relaxation_key = key
             self._rows = []
-        total = max(made, 1)
-        while self._relaxation.step_count < made:
-            row = self._relaxation.step(progress=progress)
-            if not progress("relax", self._relaxation.step_count / total):
-                break
-            low_frequency, noise = measure_spread(self._relaxation.photons)
-            self._rows.append((row["mean_displacement"], row["mean_move"], low_frequency, noise))
-        self.relaxed = self._relaxation.photons
+        relaxation = self._relaxation
+        try:
+            while relaxation.step_count < made:
+                row = relaxation.step(progress=progress)
+                low_frequency, noise = measure_spread(relaxation.photons)
+                self._rows.append((row["mean_displacement"], row["mean_move"], low_frequency, noise))
+                self._native.deliver_steps(self._rows)
+                if not progress("relax", relaxation.step_count / made):
+                    raise pl.Cancelled("stopped on request")
+        except pl.Cancelled:
+            self._show_relaxed(relaxation, stopped_at=relaxation.step_count)
+            raise
+        self._show_relaxed(relaxation, stopped_at=None)
+
+    def _show_relaxed(self, relaxation: pl.Relaxation, *, stopped_at: int | None) -> None:
+        """Let the interface show the photons as far as they are relaxed; stopped half way, those steps stay."""
+        self.relaxed = relaxation.photons
         native = self.relaxed.upload()
         if "path_offsets" in self.relaxed.recorded:
             native = self.relaxed.upload_columns(PATH_NAMES)
         _engine.build_view_trees(self._device._native, native)
-        self._native.deliver_relaxed(native, self._rows, float(self._relaxation.settings["beta"]))
+        self._native.deliver_relaxed(native, self._rows, stopped_at)
 
     def _measure_isotropy(self, settings: dict[str, Any], progress: Progress) -> None:
         assert self.photons is not None

@@ -168,13 +168,19 @@ class Studio:
         """Whether work is running in the background."""
         return self._worker.is_busy
 
-    def close(self) -> None:
-        """Stop the work and free the window; closing twice is fine."""
+    def close(self, *, keeps_autosave: bool = False) -> None:
+        """Stop the work and free the window; closing twice is fine.
+
+        Parameters
+        ----------
+        keeps_autosave
+            Leave the session that was saved aside, to be offered by the next window: after an error.
+        """
         if self._is_open:
             self._is_open = False
             self._worker.close()
             self._native.hide()
-            if self._autosave is not None:
+            if self._autosave is not None and not keeps_autosave:
                 self._autosave.clear()
 
     def __enter__(self) -> Studio:
@@ -183,7 +189,7 @@ class Studio:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self.close()
+        self.close(keeps_autosave=kind is not None and not issubclass(kind, KeyboardInterrupt))
 
     # Pictures
 
@@ -358,6 +364,11 @@ class Studio:
     def message(self) -> str:
         """The last thing the status line said."""
         return str(self._native.message()[0])
+
+    @property
+    def has_failed(self) -> bool:
+        """Whether `message` tells of something that went wrong."""
+        return bool(self._native.message()[1])
 
     @property
     def photons(self) -> PhotonMap:
