@@ -26,8 +26,8 @@ PHOTONS = 200_000
 SIZE = (1600, 900)
 FRAMES = 150  # of each measurement at least
 WARM = 15
-PATIENCE = 60.0  # s that the background work is waited for
-PLOTS, STEPS = 20, 100
+PATIENCE = 120.0  # s that the background work is waited for
+PLOTS, STEPS = 20, 20
 FEW, MANY = 250, 100_000  # curves
 TURN = 400  # reports of the mouse that bring it round
 # STUDIO: share of frames under 100 ms; queries; plots.
@@ -198,18 +198,20 @@ def add_plots(subject: Subject, bench: Bench) -> None:
 def add_rows(subject: Subject) -> None:
     """Open the window and measure."""
     bench = Bench()
-    works: dict[str, Callable[[int], None]] = {
-        "moving the loupe": bench.move_loupe,
-        "orbiting the camera": bench.orbit,
-        "dragging a slider of the script, which runs behind": bench.drag_slider,
-        f"moving the loupe while {STEPS} steps of relaxation are made behind": bench.relax,
-    }
-    for name, work in works.items():
-        add_frames(subject, name, bench.measure(work))
-    bench.studio.command("relax.reset")
-    bench.rest()
-    add_plots(subject, bench)
-    bench.close()
+    try:
+        works: dict[str, Callable[[int], None]] = {
+            "moving the loupe": bench.move_loupe,
+            "orbiting the camera": bench.orbit,
+            "dragging a slider of the script, which runs behind": bench.drag_slider,
+            f"moving the loupe while {STEPS} steps of relaxation are made behind": bench.relax,
+        }
+        for name, work in works.items():
+            add_frames(subject, name, bench.measure(work))
+        bench.studio.command("relax.reset")
+        bench.rest()
+        add_plots(subject, bench)
+    finally:
+        bench.close()
 
 
 def measure() -> Subject:
