@@ -111,8 +111,9 @@ def test_nonsense_is_refused_with_a_word(small: pl.Studio, tmp_path: Path, name:
 
 @pytest.mark.parametrize("suffix", [".gltf", ".glb", ".photon", ".loupe", ".exr", ".png"])
 def test_damaged_file_is_refused_and_the_photons_stay(tmp_path: Path, suffix: str) -> None:
-    with open_ring(size=(1200, 800)) as studio:
-        show_panel(studio, "Image")
+    with open_ring(size=(600, 400), photons=1_000) as studio:
+        if suffix in (".exr", ".png"):  # a reference is compared with a rendered view
+            studio.key("5")
         path = tmp_path / f"damaged{suffix}"
         path.write_bytes(np.random.default_rng(0).bytes(2_000))
         positions = np.asarray(studio.photons.positions).copy()
