@@ -74,7 +74,7 @@ Studio::Studio(gpu::Device& device, const StudioOptions& options)
     io.ConfigInputTrickleEventQueue = true;
     io.ConfigErrorRecoveryEnableAssert = false;
     io.ConfigErrorRecoveryEnableTooltip = false;
-    io.ConfigErrorRecoveryEnableDebugLog = false;
+    io.ConfigErrorRecoveryEnableDebugLog = true; // one of them must be
     io.ConfigInputTextCursorBlink = !options.is_offscreen;
     m_workspace.is_offscreen = options.is_offscreen;
     m_workspace.scale = options.scale;
