@@ -64,6 +64,8 @@ private:
 Studio::Studio(gpu::Device& device, const StudioOptions& options)
     : m_bench(device), m_workspace(device, m_bench), m_canvas(device, check_options(options).width, options.height) {
     IMGUI_CHECKVERSION();
+    // Whoever makes the first context makes it current: it must not stay so once it is gone.
+    const Current none(ImGui::GetCurrentContext(), ImPlot::GetCurrentContext());
     m_context = ImGui::CreateContext();
     m_plots = ImPlot::CreateContext();
     const Current current(m_context, m_plots);
