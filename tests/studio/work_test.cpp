@@ -23,7 +23,7 @@ protected:
             if (kinds.size() >= 20)
                 break;
             done[job->kind] = job->key;
-            holding.photons = true;
+            holding.photons = holding.scene = true;
         }
         return kinds;
     }
@@ -116,6 +116,16 @@ TEST_F(WorkPlan, camera_matters_to_the_render_alone) {
     EXPECT_EQ(work(), (Kinds{"render"}));
     wanted.image = false;
     state.view.camera.yaw += 0.1;
+    EXPECT_FALSE(next());
+}
+
+TEST_F(WorkPlan, without_a_scene_nothing_is_rendered) {
+    state.trace.scene.clear();
+    state.trace.map = "/m.zarr";
+    wanted.image = true;
+    done["map"] = next()->key;
+    holding.photons = true;
+    done["script"] = next()->key;
     EXPECT_FALSE(next());
 }
 
