@@ -70,6 +70,25 @@ void HistogramPanel::update(Workspace& workspace) {
     }
 }
 
+// The selected photons in the same bins.
+void HistogramPanel::count_selected(const Workspace& workspace) {
+    if (m_selected_version == workspace.selection_version && m_selected_key == m_key)
+        return;
+    m_selected_version = workspace.selection_version;
+    m_selected_key = m_key;
+    m_selected.clear();
+    if (!workspace.state.selection || m_values.empty())
+        return;
+    inspect::Column chosen;
+    for (const std::uint32_t id : *workspace.state.selection)
+        if (id < m_values.size())
+            chosen.values.push_back(m_values[id]);
+    const inspect::ColumnHistogram counted =
+        inspect::count_column(chosen, static_cast<std::uint32_t>(m_counted.counts.size()),
+                              std::pair(m_counted.edges.front(), m_counted.edges.back()));
+    m_selected.assign(counted.counts.begin(), counted.counts.end());
+}
+
 void HistogramPanel::draw_toolbar(Workspace& workspace) {
     const HistogramState& histogram = workspace.state.histogram;
     const auto edit = [&](const char* name, const auto& make) {
@@ -115,6 +134,9 @@ void HistogramPanel::draw_plot(Workspace& workspace) {
         ImPlot::SetupAxisLimits(ImAxis_Y2, 0, 1.05, ImPlotCond_Always);
     }
     ImPlot::PlotBars("counts", middles.data(), counts.data(), static_cast<int>(counts.size()), width);
+    if (!m_selected.empty())
+        ImPlot::PlotBars("selected", middles.data(), m_selected.data(), static_cast<int>(m_selected.size()), width,
+                         {ImPlotProp_FillColor, ImVec4(0.55f, 0.80f, 1.0f, 1)});
     if (histogram.shows_cdf) {
         ImPlot::SetAxes(ImAxis_X1, ImAxis_Y2);
         ImPlot::PlotLine("share", m_counted.edges.data() + 1, m_counted.cdf.data(),
@@ -139,6 +161,7 @@ void HistogramPanel::draw(Workspace& workspace) {
         ui::say_empty(m_missing.empty() ? "there is nothing to count yet" : m_missing);
         return;
     }
+    count_selected(workspace);
     draw_plot(workspace);
     const float threshold = workspace.state.histogram.threshold;
     if (!m_values.empty()) {

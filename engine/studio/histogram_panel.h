@@ -14,12 +14,16 @@ public:
 private:
     void draw_toolbar(Workspace& workspace);
     void update(Workspace& workspace);
+    void count_selected(const Workspace& workspace);
     void draw_plot(Workspace& workspace);
 
     std::string m_key;
     std::string m_missing;
     std::string m_label;
     inspect::ColumnHistogram m_counted;
+    std::vector<double> m_selected; // by bin; empty: nothing is selected
+    std::uint64_t m_selected_version = 0;
+    std::string m_selected_key;
     std::vector<float> m_values; // of the column; empty for what a script counted
 };
 

@@ -159,7 +159,9 @@ void ParallelPanel::update(Workspace& workspace, std::uint32_t width, std::uint3
     if (!m_plot.missing.empty())
         return;
     try {
-        m_plot.layout = inspect::place_axes(m_plot.axes, width, height);
+        m_plot.layout = inspect::place_axes(
+            m_plot.axes, width, height,
+            {56 * workspace.scale, 56 * workspace.scale, 34 * workspace.scale, 30 * workspace.scale});
         draw_curves(workspace, ids ? *ids : list_all(photons->map.count));
     } catch (const Error& error) {
         m_plot.missing = error.what();

@@ -162,9 +162,12 @@ void ViewPanel::draw_images(Workspace& workspace, const ViewFrame& frame) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     std::string missing;
     const auto show = [&](ViewPicture& picture, bool relaxed, float left, float right) {
-        picture.update(workspace, relaxed, width, height, missing);
+        std::string lacking;
+        picture.update(workspace, relaxed, width, height, lacking);
+        if (missing.empty())
+            missing = lacking;
         const std::uint64_t texture = picture.find_texture(workspace);
-        if (!texture || !missing.empty())
+        if (!texture || !lacking.empty())
             return;
         const float u0 = (left - frame.x) / frame.width, u1 = (right - frame.x) / frame.width;
         list.AddImage(static_cast<ImTextureID>(texture), {left, frame.y}, {right, frame.y + frame.height}, {u0, 0},
@@ -210,7 +213,8 @@ void ViewPanel::take_mouse(Workspace& workspace, const ViewFrame& frame) {
     const ImGuiIO& io = ImGui::GetIO();
     const bool is_over = ImGui::IsItemHovered(), is_active = ImGui::IsItemActive();
     const float line = frame.x + frame.width * workspace.state.view.split_at;
-    const bool is_split = workspace.state.view.is_split && workspace.has_relaxed();
+    const bool is_split =
+        workspace.state.view.is_split && workspace.has_relaxed() && !shows_render(workspace.state.view.mode);
     if (ImGui::IsItemActivated()) {
         m_is_dragging = false;
         m_drags_split = is_split && std::abs(io.MousePos.x - line) <= SPLIT_REACH * workspace.scale;
