@@ -26,7 +26,8 @@ void bind_image(nb::module_& module) {
         [](const std::string& path, nb::bytes content) {
             write_file_atomically(path, {reinterpret_cast<const unsigned char*>(content.c_str()), content.size()});
         },
-        nb::arg("path"), nb::arg("content"), "Write a file so that a killed program leaves the old one or the new one.");
+        nb::arg("path"), nb::arg("content"),
+        "Write a file so that a killed program leaves the old one or the new one.");
     module.def(
         "write_exr",
         [](const std::string& path, const Pixels& pixels, Attributes attributes) {
