@@ -168,13 +168,24 @@ def test_without_a_screen_the_message_names_the_way_out(display: str | None) -> 
 
 @pytest.fixture(scope="module")
 def screen() -> Iterator[str]:
-    """Start an X server without a screen; it takes the first free display."""
+    """Start an X server without a screen, on a display that no other run of these tests takes."""
     program = shutil.which("Xvfb")
     if program is None:
         pytest.skip("Xvfb is not installed")
     reading, writing = os.pipe()
     server = subprocess.Popen(
-        [program, "-displayfd", str(writing), "-screen", "0", "1280x800x24", "-nolisten", "tcp"],
+        [
+            program,
+            f":{1000 + os.getpid() % 50000}",
+            "-displayfd",
+            str(writing),
+            "-noreset",
+            "-screen",
+            "0",
+            "1280x800x24",
+            "-nolisten",
+            "tcp",
+        ],
         pass_fds=(writing,),
         stderr=subprocess.DEVNULL,
     )
