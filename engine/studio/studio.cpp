@@ -64,6 +64,8 @@ private:
 Studio::Studio(gpu::Device& device, const StudioOptions& options)
     : m_bench(device), m_workspace(device, m_bench), m_canvas(device, check_options(options).width, options.height) {
     IMGUI_CHECKVERSION();
+    // Whoever makes the first context makes it current: it must not stay so once it is gone.
+    const Current none(ImGui::GetCurrentContext(), ImPlot::GetCurrentContext());
     m_context = ImGui::CreateContext();
     m_plots = ImPlot::CreateContext();
     const Current current(m_context, m_plots);
@@ -74,7 +76,7 @@ Studio::Studio(gpu::Device& device, const StudioOptions& options)
     io.ConfigInputTrickleEventQueue = true;
     io.ConfigErrorRecoveryEnableAssert = false;
     io.ConfigErrorRecoveryEnableTooltip = false;
-    io.ConfigErrorRecoveryEnableDebugLog = false;
+    io.ConfigErrorRecoveryEnableDebugLog = true; // one of them must be
     io.ConfigInputTextCursorBlink = !options.is_offscreen;
     m_workspace.is_offscreen = options.is_offscreen;
     m_workspace.scale = options.scale;
