@@ -173,19 +173,10 @@ def screen() -> Iterator[str]:
     if program is None:
         pytest.skip("Xvfb is not installed")
     reading, writing = os.pipe()
+    display = f":{1000 + os.getpid() % 50_000}"
+    options = ["-displayfd", str(writing), "-noreset", "-screen", "0", "1280x800x24", "-nolisten", "tcp"]
     server = subprocess.Popen(
-        [
-            program,
-            f":{1000 + os.getpid() % 50000}",
-            "-displayfd",
-            str(writing),
-            "-noreset",
-            "-screen",
-            "0",
-            "1280x800x24",
-            "-nolisten",
-            "tcp",
-        ],
+        [program, display, *options],
         pass_fds=(writing,),
         stderr=subprocess.DEVNULL,
     )
