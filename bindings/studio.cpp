@@ -14,8 +14,22 @@
 namespace photonloupe::bindings {
 namespace {
 
-using studio::Studio;
 using studio::Workspace;
+
+// Gives the GIL back when what was made after it is gone.
+struct FreeState {
+    PyThreadState* state = nullptr;
+    ~FreeState() {
+        if (state)
+            PyEval_RestoreThread(state);
+    }
+};
+
+// A studio that goes without the GIL: it waits for the device, which work that waits for the GIL may hold.
+struct Studio : FreeState, studio::Studio {
+    using studio::Studio::Studio;
+    ~Studio() { state = PyEval_SaveThread(); }
+};
 
 std::unique_ptr<Studio> open_studio(OpenDevice& open, std::pair<std::uint32_t, std::uint32_t> size, float scale,
                                     bool is_offscreen) {

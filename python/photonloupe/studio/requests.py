@@ -31,7 +31,9 @@ _GONE = (0, -1)
 class Requests:
     """Serves what the interface asks for beside its work, and notices files that changed."""
 
-    def __init__(self, native: _engine.Studio, stages: Stages, export: Callable[..., None]) -> None:
+    def __init__(
+        self, native: _engine.Studio, stages: Stages, export: Callable[[], Callable[..., None] | None]
+    ) -> None:
         self._native = native
         self._export = export
         self._stages = stages
@@ -64,7 +66,9 @@ class Requests:
             asked = json.loads(argument)
             if not asked["path"]:
                 raise ArgumentError("name a file to write the figure to")
-            self._export(asked["panel"], asked["path"], asked["size"], asked["scale"])
+            export = self._export()
+            if export is not None:
+                export(asked["panel"], asked["path"], asked["size"], asked["scale"])
             self._native.say(f"wrote {asked['path']}", False)
         elif verb in ("restore", "discard"):
             if verb == "restore":

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import weakref
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import TracebackType
@@ -94,7 +95,7 @@ class Studio:
         self._is_open = True
         self._stages = Stages(self._device, self._native)
         self._worker = Worker(self._native, self._stages, is_threaded=background or not offscreen)
-        self._requests = Requests(self._native, self._stages, self.export_panel)
+        self._requests = Requests(self._native, self._stages, weakref.WeakMethod(self.export_panel))
         self._watchers: list[SelectionWatcher] = []
         self._seen_version = self._native.version()
         self._told_selection: NDArray[np.uint32] | None = None
