@@ -222,4 +222,4 @@ def test_demo_writes_its_pictures(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     ring = {"caustic_top", "composite_view", "composite_top", "photons_close"}
     relaxed = {"relax", "relax_raw", "relax_unconstrained", "relax_world", "relax_parameter"}
     scripts = {"scripts", "script_tortuosity", "script_primal_trajectory", "script_ppca"}
-    assert {path.stem for path in tmp_path.glob("*.png")} == ring | scripts | relaxed
+    assert {path.stem for path in tmp_path.glob("*.png")} == ring | scripts | relaxed | {"studio"}

@@ -15,8 +15,10 @@ import photonloupe as pl
 from photonloupe.progress import ProgressBar
 
 # Says when tracing is under way, so that the interrupt arrives in the middle of it.
+# Who starts the tests in the background passes on that interrupts are ignored.
 INTERRUPTED = """
-import sys
+import signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)
 import photonloupe as pl
 said = False
 def progress(stage, fraction):
