@@ -34,6 +34,14 @@ inspect::ColumnHistogram take_script(const HistogramResult& result) {
     return counted;
 }
 
+// Where the line stands: while nobody moved it, that of isotropy at t_β.
+float find_threshold(const Workspace& workspace) {
+    const HistogramState& histogram = workspace.state.histogram;
+    const std::optional<IsotropyResult>& isotropy = workspace.results.isotropy;
+    const bool is_moved = histogram.threshold != 0 || histogram.column != "isotropy" || !isotropy;
+    return is_moved ? histogram.threshold : static_cast<float>(isotropy->threshold);
+}
+
 } // namespace
 
 void HistogramPanel::update(Workspace& workspace) {
@@ -144,7 +152,7 @@ void HistogramPanel::draw_plot(Workspace& workspace) {
         ImPlot::SetAxes(ImAxis_X1, ImAxis_Y1);
     }
     double threshold =
-        std::clamp(static_cast<double>(histogram.threshold), m_counted.edges.front(), m_counted.edges.back());
+        std::clamp(static_cast<double>(find_threshold(workspace)), m_counted.edges.front(), m_counted.edges.back());
     if (ImPlot::DragLineX(0, &threshold, {1.0f, 0.69f, 0.25f, 1}, 2))
         workspace.change("threshold",
                          [&](StudioState& state) { state.histogram.threshold = static_cast<float>(threshold); });
@@ -163,7 +171,7 @@ void HistogramPanel::draw(Workspace& workspace) {
     }
     count_selected(workspace);
     draw_plot(workspace);
-    const float threshold = workspace.state.histogram.threshold;
+    const float threshold = find_threshold(workspace);
     if (!m_values.empty()) {
         const double share = inspect::find_share_above(m_values, threshold);
         ImGui::TextDisabled("above %.4g: %.2f %% of the photons; 5 %% lie below %.4g", static_cast<double>(threshold),

@@ -67,16 +67,6 @@ std::string format_range(const inspect::Column& column, const inspect::Range& ra
 
 } // namespace
 
-bool is_within(const std::vector<glm::vec2>& polygon, glm::vec2 point) {
-    bool inside = false;
-    for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-        const glm::vec2 a = polygon[i], b = polygon[j];
-        if ((a.y > point.y) != (b.y > point.y) && point.x < (b.x - a.x) * (point.y - a.y) / (b.y - a.y) + a.x)
-            inside = !inside;
-    }
-    return inside;
-}
-
 void ScatterPanel::update(Workspace& workspace, Plot& plot, const std::string& texture, const std::string& x,
                           const std::string& y, bool is_polar, std::uint32_t width, std::uint32_t height) {
     const ScatterState& scatter = workspace.state.scatter;
@@ -163,12 +153,9 @@ void ScatterPanel::take_lasso(Workspace& workspace, const Plot& plot, float x, f
         workspace.change("select nothing", [&](StudioState&) { workspace.select(nullptr); });
         return;
     }
-    auto ids = std::make_shared<std::vector<std::uint32_t>>();
-    for (std::size_t i = 0; i < plot.x.values.size(); ++i) {
-        const glm::dvec2 at = plot.frame->to_pixel(plot.x.values[i], plot.y.values[i]);
-        if (is_within(m_lasso, glm::vec2(at)))
-            ids->push_back(static_cast<std::uint32_t>(i));
-    }
+    std::vector<glm::dvec2> polygon(m_lasso.begin(), m_lasso.end());
+    const auto ids = std::make_shared<const std::vector<std::uint32_t>>(
+        inspect::find_in_lasso(plot.x, plot.y, *plot.frame, polygon));
     workspace.change("lasso", [&](StudioState& state) {
         for (AxisState& axis : state.parallel.axes)
             axis.brushes.clear();

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "inspect/scatter.h"
+#include "inspect/lasso.h"
 #include "studio/workspace.h"
 
 namespace photonloupe::studio {
@@ -34,8 +34,5 @@ private:
     std::vector<glm::vec2> m_lasso; // pixels of the plot
     bool m_is_lassoing = false;
 };
-
-// Whether a point lies within a polygon, by the even-odd rule.
-bool is_within(const std::vector<glm::vec2>& polygon, glm::vec2 point);
 
 } // namespace photonloupe::studio

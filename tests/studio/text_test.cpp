@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keys by name, polygons, and the program that is copied.
-#include <random>
+// Keys by name, and the program that is copied.
 #include <set>
 
 #include <gtest/gtest.h>
@@ -9,7 +8,6 @@
 #include "core/error.h"
 #include "studio/commands.h"
 #include "studio/python_script.h"
-#include "studio/scatter_panel.h"
 
 namespace photonloupe::studio {
 namespace {
@@ -41,36 +39,6 @@ TEST(Commands, have_one_name_and_one_key_each) {
         }
     }
     EXPECT_THROW(find_command("make.coffee"), Error);
-}
-
-TEST(Polygon, square_holds_what_is_within) {
-    const std::vector<glm::vec2> square = {{0, 0}, {2, 0}, {2, 2}, {0, 2}};
-    EXPECT_TRUE(is_within(square, {1, 1}));
-    EXPECT_FALSE(is_within(square, {3, 1}));
-    EXPECT_FALSE(is_within(square, {1, -1}));
-}
-
-TEST(Polygon, hollow_is_outside) {
-    const std::vector<glm::vec2> letter = {{0, 0}, {3, 0}, {3, 3}, {2, 3}, {2, 1}, {1, 1}, {1, 3}, {0, 3}};
-    EXPECT_TRUE(is_within(letter, {0.5f, 2}));
-    EXPECT_TRUE(is_within(letter, {2.5f, 2}));
-    EXPECT_FALSE(is_within(letter, {1.5f, 2}));
-}
-
-TEST(Polygon, without_area_it_holds_nothing) {
-    EXPECT_FALSE(is_within({}, {0, 0}));
-    EXPECT_FALSE(is_within({{1, 1}}, {1, 1}));
-    EXPECT_FALSE(is_within({{0, 0}, {2, 2}}, {1, 1}));
-}
-
-TEST(Polygon, each_place_belongs_to_one_of_two_neighbours) {
-    std::mt19937 engine(1);
-    const std::vector<glm::vec2> left = {{0, 0}, {8, 0}, {8, 8}, {0, 8}}, right = {{8, 0}, {16, 0}, {16, 8}, {8, 8}};
-    for (int i = 0; i < 200; ++i) {
-        const glm::vec2 point(static_cast<float>(engine() % 17), 1 + static_cast<float>(engine() % 6));
-        if (point.x < 16)
-            EXPECT_NE(is_within(left, point), is_within(right, point)) << point.x << " " << point.y;
-    }
 }
 
 TEST(PythonScript, empty_state_only_imports) {
