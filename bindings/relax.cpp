@@ -45,10 +45,6 @@ RelaxSettings read_settings(const nb::dict& given) {
     settings.repel = parse_space(nb::cast<std::string>(given["repel"]));
     settings.beta = nb::cast<float>(given["beta"]);
     settings.search = nb::cast<std::string>(given["search"]) == "carried" ? RadiusSearch::carried : RadiusSearch::exact;
-    const auto tree = nb::cast<std::string>(given["tree"]);
-    settings.tree = tree == "position"  ? LayerTree::position
-                    : tree == "layered" ? LayerTree::layered
-                                        : LayerTree::automatic;
     settings.diffuse_flux = nb::cast<bool>(given["diffuse_flux"]);
     settings.period = nb::cast<std::array<float, 3>>(given["period"]);
     settings.constraint.descriptor = parse_descriptor(nb::cast<std::string>(given["descriptor"]));
@@ -121,6 +117,9 @@ nb::tuple measure(OpenDevice& open, Matrix<const double, 2> points, std::array<d
 void bind_relax(nb::module_& module) {
     nb::class_<OpenRelaxation>(module, "Relaxation")
         .def("step", &step, nb::arg("progress").none() = nb::none(), "One step; what it did.")
+        .def_prop_ro(
+            "notes", [](const OpenRelaxation& open) { return open.relaxation.notes(); },
+            "What makes parameters useless here, with the cure.")
         .def("read", &read, "(map, state columns by photon id, photons off their surface).");
     module.def(
         "measure_isotropy",
@@ -139,7 +138,7 @@ void bind_relax(nb::module_& module) {
     module.def("start_relaxation", &start, nb::arg("device"), nb::arg("photons"), nb::arg("scene").none(),
                nb::arg("settings"), nb::arg("progress").none() = nb::none(), nb::keep_alive<0, 1>(),
                "Measure the constraint and stand ready; settings: steps, neighbors, over_relaxation, limit, repel, "
-               "beta, search, tree, diffuse_flux, period, descriptor, constraint, constraint_neighbors, thresholds.");
+               "beta, search, diffuse_flux, period, descriptor, constraint, constraint_neighbors, thresholds.");
 }
 
 } // namespace photonloupe::bindings

@@ -70,72 +70,91 @@ const KdTree& Workbench::find_tree(Photons& photons, const Progress& progress) {
 Neighbors Workbench::find_neighbors(Photons& photons, std::span<const glm::vec4> points, std::uint32_t k,
                                     const Progress& progress) {
     require_k(k);
-    return photonloupe::find_neighbors(m_device, find_tree(photons, progress), points, k, false, progress);
+    return photonloupe::find_neighbors(m_device, {find_tree(photons, progress)}, ask_at(points), k, progress);
 }
 
 Neighbors Workbench::find_neighbors_of(Photons& photons, std::span<const std::uint32_t> ids, std::uint32_t k,
                                        const Progress& progress) {
     require_k(k);
-    return photonloupe::find_neighbors_of(m_device, photons.map, find_tree(photons, progress), ids, k, progress);
+    const NeighborQueries queries = ask_about(photons.map, ids);
+    return photonloupe::find_neighbors(m_device, {find_tree(photons, progress)}, queries, k, progress);
 }
 
 Neighbors Workbench::find_parameter_neighbors(Photons& photons, std::span<const double> values, std::uint32_t k,
                                               const Progress& progress) {
     const ParameterTree& tree = find_parameter_tree(photons, progress);
-    return find_in_parameter_space(m_device, tree, ask_parameters_at(photons.map, tree, values), k, false, progress);
+    return photonloupe::find_neighbors(m_device, look_in(tree, Measure::parameters),
+                                       ask_parameters_at(*tree.parameters, values), k, progress);
 }
 
 Neighbors Workbench::find_parameter_neighbors_of(Photons& photons, std::span<const std::uint32_t> ids, std::uint32_t k,
                                                  const Progress& progress) {
     const ParameterTree& tree = find_parameter_tree(photons, progress);
-    return find_in_parameter_space(m_device, tree, ask_parameters_of(photons.map, tree, ids), k, true, progress);
+    return photonloupe::find_neighbors(m_device, look_in(tree, Measure::parameters),
+                                       ask_with_rows(photons.map, *tree.parameters, ids), k, progress);
 }
 
 Neighbors Workbench::find_layer_neighbors_of(Photons& photons, std::span<const std::uint32_t> ids, std::uint32_t k,
                                              float beta, const Progress& progress) {
-    const std::vector<float> radii2 =
-        find_radii2_of(m_device, photons.map, find_parameter_tree(photons, progress), ids, k, progress);
-    return find_in_layers(m_device, photons.map, find_tree(photons, progress), find_tree_layers(photons, progress),
-                          ask_layers_of(photons.map, ids, radii2, beta), k, true, progress);
+    const ParameterTree& tree = find_layered_tree(photons, progress);
+    NeighborQueries queries = ask_with_rows(photons.map, *tree.parameters, ids);
+    for (const float radius2 : find_radii2_of(photons, queries, k, progress))
+        queries.reach2.push_back(scale_reach2(radius2, beta));
+    return photonloupe::find_neighbors(m_device, look_in(tree, Measure::world), queries, k, progress);
 }
 
 Neighbors Workbench::find_layer_neighbors(Photons& photons, std::span<const glm::vec4> points, std::uint32_t center,
                                           std::uint32_t k, float beta, const Progress& progress) {
+    const ParameterTree& tree = find_layered_tree(photons, progress);
     const std::uint32_t ids[] = {center};
-    const std::vector<float> radii2 =
-        find_radii2_of(m_device, photons.map, find_parameter_tree(photons, progress), ids, k, progress);
-    return find_in_layers(m_device, photons.map, find_tree(photons, progress), find_tree_layers(photons, progress),
-                          ask_layer_at(photons.map, points, center, radii2[0], beta), k, false, progress);
+    const NeighborQueries middle = ask_with_rows(photons.map, *tree.parameters, ids);
+    NeighborQueries queries = ask_at(points);
+    seek_in_layer(queries, middle.rows, scale_reach2(find_radii2_of(photons, middle, k, progress)[0], beta));
+    return photonloupe::find_neighbors(m_device, look_in(tree, Measure::world), queries, k, progress);
 }
 
 Neighbors Workbench::find_range_neighbors(Photons& photons, std::span<const glm::vec4> points,
                                           std::span<const float> low, std::span<const float> high, std::uint32_t k,
                                           const Progress& progress) {
-    return find_in_layers(m_device, photons.map, find_tree(photons, progress), find_tree_layers(photons, progress),
-                          ask_ranges_at(points, low, high), k, false, progress);
+    NeighborQueries queries = ask_at(points);
+    seek_in_intervals(queries, low, high);
+    return photonloupe::find_neighbors(m_device, look_in(find_layered_tree(photons, progress), Measure::world), queries,
+                                       k, progress);
+}
+
+std::vector<float> Workbench::find_radii2_of(Photons& photons, const NeighborQueries& queries, std::uint32_t k,
+                                             const Progress& progress) {
+    const OrderedQueries ordered = order_queries(m_device, queries);
+    const gpu::Buffer radii =
+        find_parameter_radii(m_device, find_parameter_tree(photons, progress), ordered.view(), k, progress);
+    const std::vector<glm::vec4> found = radii.read<glm::vec4>(ordered.count);
+    const std::vector<std::uint32_t> rows = ordered.result_rows.read<std::uint32_t>(ordered.count);
+    std::vector<float> radii2(ordered.count);
+    for (std::size_t i = 0; i < found.size(); ++i)
+        radii2[rows[i]] = found[i].w >= static_cast<float>(k) ? found[i].x : std::numeric_limits<float>::infinity();
+    return radii2;
 }
 
 std::vector<float> Workbench::measure_isotropy(Photons& photons, std::uint32_t k, const Progress& progress) {
-    return photonloupe::measure_isotropy(m_device, photons.map, find_parameter_tree(photons, progress), k, progress);
+    return photonloupe::measure_isotropy(m_device, find_parameter_tree(photons, progress), k, progress);
+}
+
+std::shared_ptr<const ParameterRows> Workbench::find_parameter_rows(Photons& photons) {
+    if (!photons.parameter_rows)
+        photons.parameter_rows = std::make_shared<ParameterRows>(make_parameter_rows(m_device, photons.map));
+    return photons.parameter_rows;
 }
 
 const ParameterTree& Workbench::find_parameter_tree(Photons& photons, const Progress& progress) {
     if (!photons.parameter_tree)
-        photons.parameter_tree = build_parameter_tree(m_device, photons.map, progress);
+        photons.parameter_tree = build_parameter_tree(m_device, photons.map, find_parameter_rows(photons), progress);
     return *photons.parameter_tree;
 }
 
-const Layers& Workbench::find_tree_layers(Photons& photons, const Progress& progress) {
-    if (!photons.tree_layers)
-        photons.tree_layers = order_parameters(m_device, photons.map, find_tree(photons, progress), {}, 1.0f, progress);
-    return *photons.tree_layers;
-}
-
-std::shared_ptr<const LayeredTree> Workbench::find_layered_tree(Photons& photons, const Progress& progress) {
+const ParameterTree& Workbench::find_layered_tree(Photons& photons, const Progress& progress) {
     if (!photons.layered_tree)
-        photons.layered_tree = std::make_shared<LayeredTree>(
-            build_layered_tree(m_device, photons.map, find_parameter_tree(photons, progress), progress));
-    return photons.layered_tree;
+        photons.layered_tree = build_layered_tree(m_device, photons.map, find_parameter_rows(photons), progress);
+    return *photons.layered_tree;
 }
 
 gpu::Buffer Workbench::find_script_rows(Photons& photons, script::NeighborQuery::Space space,
@@ -190,25 +209,12 @@ Relaxation Workbench::start_relaxation(Photons& photons, const Scene* scene, con
                                        const Progress& progress) {
     const KdTree& tree = find_tree(photons, progress);
     const bool constrains = settings.constraint.descriptor != Descriptor::none;
-    const bool needs_parameters =
-        settings.repel == Space::parameter || (constrains && settings.constraint.space == Space::parameter);
-    const bool is_automatic = settings.tree == LayerTree::automatic;
     LayerTrees trees;
-    if (needs_parameters)
-        trees.parameters = &find_parameter_tree(photons, progress);
-    if (needs_parameters &&
-        (settings.tree == LayerTree::layered || (is_automatic && settings.repel == Space::parameter)))
-        trees.layered = find_layered_tree(photons, progress);
+    if (settings.repel == Space::parameter || (constrains && settings.constraint.space == Space::parameter))
+        trees = {&find_parameter_tree(photons, progress), &find_layered_tree(photons, progress)};
     RelaxSurface surface;
     if (scene)
         surface = {find_buffers(*scene), scene->origin};
-    try {
-        return Relaxation(m_device, photons.map, tree, trees, settings, surface, progress);
-    } catch (const CrowdError&) {
-        if (!needs_parameters || !is_automatic || trees.layered)
-            throw;
-    }
-    trees.layered = find_layered_tree(photons, progress);
     return Relaxation(m_device, photons.map, tree, trees, settings, surface, progress);
 }
 
@@ -216,10 +222,8 @@ gpu::Buffer Workbench::estimate_irradiance(Photons& photons, std::span<const glm
                                            std::span<const glm::vec4> normals, const EstimateSettings& settings,
                                            const Progress& progress) {
     require_k(settings.k);
-    const KdTree& tree = find_tree(photons, progress);
-    return photonloupe::estimate_irradiance(
-        m_device, photons.map.power_object, tree, gpu::make_buffer(m_device, points, "points"),
-        gpu::make_buffer(m_device, normals, "normals"), order_points(points), settings, progress);
+    return estimate_irradiance_at(m_device, photons.map.power_object, find_tree(photons, progress), points, normals,
+                                  settings, progress);
 }
 
 void Workbench::build_view_trees(Photons& photons, const Progress& progress) {
@@ -227,7 +231,7 @@ void Workbench::build_view_trees(Photons& photons, const Progress& progress) {
     if (!photons.map.parameters)
         return;
     find_parameter_tree(photons, progress);
-    find_tree_layers(photons, progress);
+    find_layered_tree(photons, progress);
 }
 
 Image Workbench::render_voronoi(const Scene& scene, Photons& photons, const RenderSettings& settings,

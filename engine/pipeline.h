@@ -9,7 +9,7 @@
 #include <span>
 
 #include "estimate/render_image.h"
-#include "photons/layered_queries.h"
+#include "photons/find_neighbors.h"
 #include "relax/isotropy.h"
 #include "relax/relaxation.h"
 #include "script/run_script.h"
@@ -23,14 +23,14 @@ struct Photons {
     TraceReport report;
     Store store = Store::caustic;
     std::optional<KdTree> tree;
+    std::shared_ptr<const ParameterRows> parameter_rows; // relaxations keep them
     std::optional<ParameterTree> parameter_tree;
-    std::shared_ptr<const LayeredTree> layered_tree; // relaxations keep it
-    std::optional<Layers> tree_layers;               // the parameters in the order of `tree`
-    std::shared_ptr<const RelaxedState> state;       // null: neither constrained nor relaxed
+    std::optional<ParameterTree> layered_tree;
+    std::shared_ptr<const RelaxedState> state; // null: neither constrained nor relaxed
 
     // Trees of parameters that are no longer the map's.
     void forget_parameters() {
-        tree_layers.reset();
+        parameter_rows.reset();
         parameter_tree.reset();
         layered_tree.reset();
     }
@@ -64,12 +64,9 @@ public:
     Neighbors find_range_neighbors(Photons& photons, std::span<const glm::vec4> points, std::span<const float> low,
                                    std::span<const float> high, std::uint32_t k, const Progress& progress);
 
+    // Of parameters alone, and of positions and parameters.
     const ParameterTree& find_parameter_tree(Photons& photons, const Progress& progress = {});
-
-    // Of the tree over positions, without reach.
-    const Layers& find_tree_layers(Photons& photons, const Progress& progress = {});
-
-    std::shared_ptr<const LayeredTree> find_layered_tree(Photons& photons, const Progress& progress = {});
+    const ParameterTree& find_layered_tree(Photons& photons, const Progress& progress = {});
 
     // Axis ratios of photons in world space around their k neighbours in parameter space, by id ([SJL15] eq. 5).
     std::vector<float> measure_isotropy(Photons& photons, std::uint32_t k, const Progress& progress);
@@ -102,6 +99,10 @@ public:
     gpu::Device& device() { return m_device; }
 
 private:
+    std::shared_ptr<const ParameterRows> find_parameter_rows(Photons& photons);
+    // Squared r_q of queries with rows; inf where fewer than k have parameters.
+    std::vector<float> find_radii2_of(Photons& photons, const NeighborQueries& queries, std::uint32_t k,
+                                      const Progress& progress);
     gpu::Buffer find_script_rows(Photons& photons, script::NeighborQuery::Space space,
                                  std::span<const std::uint32_t> ids, std::uint32_t k, float beta,
                                  const Progress& progress);

@@ -31,12 +31,6 @@ public:
     using Error::Error;
 };
 
-// Photons reach more of the map than one workgroup can look through; a tree that culls more may do.
-class CrowdError : public Error {
-public:
-    using Error::Error;
-};
-
 // The user stopped the work between two chunks (Ctrl-C or a progress callback that returned false).
 class Cancelled : public Error {
 public:

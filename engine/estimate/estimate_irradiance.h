@@ -4,8 +4,7 @@
 
 #include <span>
 
-#include "photons/kd_tree.h"
-#include "photons/same_surface.h"
+#include "photons/gather.h"
 
 namespace photonloupe {
 
@@ -23,11 +22,15 @@ struct EstimateSettings {
 };
 
 // W/m² at each point (xyz relative to the map's origin, with unit normals; a zero normal: 0) from photons with the
-// flux `power` (rgb, by id); w: what photons that each carry 1 W would give.
-// `order` lists all points in the order to visit them (see photons/query_tree.h).
+// flux `power` (rgb, by id); w: what photons that each carry 1 W would give. Point i's goes to row result_rows[i];
+// those that follow each other should look at the same photons.
 gpu::Buffer estimate_irradiance(gpu::Device& device, const gpu::Buffer& power, const KdTree& tree,
-                                const gpu::Buffer& points, const gpu::Buffer& normals,
-                                std::span<const std::uint32_t> order, const EstimateSettings& settings,
-                                const Progress& progress = {});
+                                const gpu::Buffer& points, const gpu::Buffer& normals, const gpu::Buffer& result_rows,
+                                std::uint64_t count, const EstimateSettings& settings, const Progress& progress = {});
+
+// The same for points from the host, in any order.
+gpu::Buffer estimate_irradiance_at(gpu::Device& device, const gpu::Buffer& power, const KdTree& tree,
+                                   std::span<const glm::vec4> points, std::span<const glm::vec4> normals,
+                                   const EstimateSettings& settings, const Progress& progress = {});
 
 } // namespace photonloupe

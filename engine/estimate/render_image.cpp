@@ -3,11 +3,11 @@
 #include "estimate/render_image.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "estimate/camera_frame.h"
 #include "estimate/plot_photons.h"
 #include "gpu/commands.h"
-#include "photons/query_tree.h"
 
 namespace photonloupe {
 namespace {
@@ -24,13 +24,16 @@ struct FilmScratch {
     gpu::Buffer hit_weight;
     gpu::Buffer eye_emission;
     gpu::Buffer direct_irradiance;
+    gpu::Buffer slots; // 0, 1, 2 …
 };
 
 FilmScratch allocate_scratch(gpu::Device& device, std::uint64_t samples, std::uint64_t slots) {
     const std::uint64_t bytes = samples * slots * sizeof(glm::vec4);
+    std::vector<std::uint32_t> numbers(samples * slots);
+    std::iota(numbers.begin(), numbers.end(), 0u);
     return {gpu::Buffer(device, bytes, "eye hits"), gpu::Buffer(device, bytes, "eye hits"),
             gpu::Buffer(device, bytes, "eye hits"), gpu::Buffer(device, samples * sizeof(glm::vec4), "eye emission"),
-            gpu::Buffer(device, bytes, "direct light")};
+            gpu::Buffer(device, bytes, "direct light"), gpu::make_buffer(device, numbers, "eye hits")};
 }
 
 struct Renderer {
@@ -80,7 +83,7 @@ void Renderer::light_direct(const FilmScratch& scratch) {
 
 gpu::Buffer Renderer::gather(const FilmScratch& scratch, const gpu::Buffer& power, const Progress& progress) {
     const std::uint64_t slots = std::uint64_t{film_push.sample_count} * film_push.slot_count;
-    return estimate_irradiance(device, power, map->tree, scratch.hit_point, scratch.hit_normal, keep_order(slots),
+    return estimate_irradiance(device, power, map->tree, scratch.hit_point, scratch.hit_normal, scratch.slots, slots,
                                settings.estimate, progress);
 }
 

@@ -162,7 +162,7 @@ Commands::~Commands() = default;
 
 namespace {
 
-std::vector<const Buffer*> match_bindings(const Kernel& kernel, std::initializer_list<Binding> bindings) {
+std::vector<const Buffer*> match_bindings(const Kernel& kernel, std::span<const Binding> bindings) {
     std::vector<const Buffer*> buffers;
     for (const BindingDeclaration& declared : kernel.bindings()) {
         const auto found = std::find_if(bindings.begin(), bindings.end(),
@@ -187,7 +187,7 @@ std::uint64_t find_large(const Kernel& kernel, const std::vector<const Buffer*>&
 
 } // namespace
 
-void Commands::record_dispatch(const KernelSource& source, std::initializer_list<Binding> bindings, const void* push,
+void Commands::record_dispatch(const KernelSource& source, std::span<const Binding> bindings, const void* push,
                                std::uint32_t push_bytes, std::uint64_t invocations) {
     if (push_bytes > PUSH_BYTES)
         throw std::logic_error("push constants of " + source.path + " exceed 128 bytes");

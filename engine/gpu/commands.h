@@ -5,6 +5,7 @@
 #include <functional>
 #include <initializer_list>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -35,7 +36,12 @@ public:
     template <class Push>
     void dispatch(const KernelSource& kernel, std::initializer_list<Binding> bindings, const Push& push,
                   std::uint64_t invocations) {
-        record_dispatch(kernel, bindings, &push, sizeof(Push), invocations);
+        record_dispatch(kernel, {bindings.begin(), bindings.size()}, &push, sizeof(Push), invocations);
+    }
+    // The same where neither is known before the run: push constants as bytes.
+    void dispatch(const KernelSource& kernel, std::span<const Binding> bindings, std::span<const std::byte> push,
+                  std::uint64_t invocations) {
+        record_dispatch(kernel, bindings, push.data(), static_cast<std::uint32_t>(push.size()), invocations);
     }
     void copy(const Buffer& source, std::uint64_t source_offset, const Buffer& target, std::uint64_t target_offset,
               std::uint64_t size_bytes);
@@ -56,7 +62,7 @@ public:
     Impl& impl() const { return *m_impl; }
 
 private:
-    void record_dispatch(const KernelSource& kernel, std::initializer_list<Binding> bindings, const void* push,
+    void record_dispatch(const KernelSource& kernel, std::span<const Binding> bindings, const void* push,
                          std::uint32_t push_bytes, std::uint64_t invocations);
     std::unique_ptr<Impl> m_impl;
 };

@@ -10,7 +10,7 @@
 #include "inspect/path_view.h"
 #include "inspect/read_rows.h"
 #include "photons/map_columns.h"
-#include "photons/query_tree.h"
+#include "photons/neighbor_queries.h"
 
 namespace photonloupe::inspect {
 namespace {

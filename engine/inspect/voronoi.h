@@ -5,7 +5,7 @@
 #include "inspect/cell_image.h"
 #include "inspect/surface_view.h"
 #include "photons/kd_tree.h"
-#include "photons/same_surface.h"
+#include "photons/neighborhood.h"
 
 namespace photonloupe::inspect {
 

@@ -1,195 +1,217 @@
 // SPDX-License-Identifier: Apache-2.0
-// Specialises and dispatches the gathering kernels.
+// Specialises and dispatches the searching and gathering kernels.
 #include "photons/gather.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
-
-#include "photons/query_tree.h"
-#include "photons/same_surface.h"
 
 namespace photonloupe {
 namespace {
 
-// Photons kept in order above the bound (shaders/photons/find_radius.glsl). Each costs two operations for every
+// Photons kept in order above the bound (shaders/photons/search_radius.glsl). Each costs two operations for every
 // photon that streams by, a bound that misses costs a pass.
 constexpr std::uint32_t SMALLEST_SHELL = 4;
 constexpr std::uint32_t LARGEST_SHELL = 12;
 // Workgroups of the first chunk of work: fewer would leave the device idle while chunks grow.
 constexpr std::uint64_t FIRST_GROUPS = 64;
-// Subgroups of photons a workgroup takes in turn: amortises its start.
+// Subgroups of queries a workgroup takes in turn: amortises its start; they share its loop turns.
 constexpr std::uint32_t BATCHES = 4;
-constexpr std::array<const char*, 3> PLANES{"yz", "xz", "xy"}; // without axis 0, 1, 2
+// Queries taken one by one that are under way together: bounds what is kept of them.
+constexpr std::size_t LARGEST_SINGLE_COUNT = 4096;
+// Words of a walk that is not over, and of its sums (shaders/photons/stream_members.glsl).
+constexpr std::uint32_t SAVED_WALK_WORDS = 32;
+constexpr std::uint32_t SAVED_SEARCH_HEAD = 6; // shaders/photons/select_radius.comp
 
 // Entries of the shell: all that are sought where that is few.
-std::uint32_t size_shell(std::uint32_t k) {
-    return std::clamp(k + 2, SMALLEST_SHELL, LARGEST_SHELL);
+std::uint32_t size_shell(std::uint32_t rank) {
+    return std::clamp(rank, SMALLEST_SHELL, LARGEST_SHELL);
 }
 
-// A macro that calls its argument with 0 … count - 1: loops would count against the device's limit of turns.
-std::string write_each(const std::string& name, std::uint32_t count) {
-    std::string text = name + "(DO)";
+std::string write_each_kept(std::uint32_t count) {
+    std::string text = "EACH_KEPT(DO)";
     for (std::uint32_t i = 0; i < count; ++i)
         text += " DO(" + std::to_string(i) + ")";
     return text;
 }
 
+// Entries of the list that selecting needs: the rank, its growth, a leaf; the last is taken in tiles of a subgroup.
+std::uint32_t size_list(std::uint32_t rank, std::uint32_t subgroup_size) {
+    return rank + std::max(rank / 4, shared::TREE_LEAF_PHOTONS / 2) +
+           std::max(shared::TREE_LEAF_PHOTONS, subgroup_size) + 1;
+}
+
+// What one gather is about.
+struct Gathering {
+    gpu::Device& device;
+    const Neighborhood& neighborhood;
+    const Queries& queries;
+    const std::string& stage;
+    const Progress& progress;
+
+    std::vector<gpu::Binding> bind(const std::vector<gpu::Binding>& more) const {
+        std::vector<gpu::Binding> bindings = list_bindings(neighborhood, queries);
+        for (const gpu::Binding& binding : more)
+            bindings.push_back(binding);
+        return bindings;
+    }
+};
+
+// Runs `kernel` over [first, first + count) of what it counts in, `per_group` to a workgroup of one subgroup.
+void run_chunks(const Gathering& about, const gpu::KernelSource& kernel, const std::vector<gpu::Binding>& bindings,
+                std::span<const std::byte> push, std::uint64_t first, std::uint64_t count, std::uint64_t per_group) {
+    std::vector<std::byte> bytes(push.begin(), push.end());
+    gpu::run_in_chunks(
+        about.device, about.stage, count, per_group * FIRST_GROUPS, about.progress,
+        [&](gpu::Commands& commands, std::uint64_t begin, std::uint64_t size) {
+            shared::GatherSettings settings;
+            std::memcpy(&settings, bytes.data(), sizeof settings);
+            settings.first = static_cast<std::uint32_t>(first + begin);
+            settings.count = static_cast<std::uint32_t>(size);
+            std::memcpy(bytes.data(), &settings, sizeof settings);
+            commands.dispatch(kernel, bindings, bytes,
+                              (size + per_group - 1) / per_group * about.device.limits().subgroup_size);
+        },
+        per_group * about.device.limits().max_group_count);
+}
+
+// Runs the kernel side by side; queries that were left.
+std::vector<std::uint32_t> run_side_by_side(const Gathering& about, const gpu::KernelSource& kernel,
+                                            const std::vector<gpu::Binding>& more, std::span<const std::byte> push,
+                                            std::uint64_t first, std::uint64_t count, bool takes_subgroups) {
+    // All flags are set: a workgroup that the device stops for its loop turns clears none.
+    const gpu::Buffer unanswered(about.device, (first + count) * sizeof(std::uint32_t), "unanswered queries");
+    gpu::Commands commands(about.device, about.stage);
+    commands.fill(unanswered, 1);
+    commands.run();
+    const gpu::Buffer none = gpu::make_buffer(about.device, std::vector<glm::uvec2>(1), "single queries");
+    std::vector<gpu::Binding> bindings = about.bind(more);
+    for (const char* name : {"singles", "saved_walks", "saved_lists"})
+        bindings.push_back({name, none});
+    bindings.push_back({"unanswered", unanswered});
+    const std::uint64_t per_group = takes_subgroups ? 1 : std::uint64_t{about.device.limits().subgroup_size} * BATCHES;
+    run_chunks(about, kernel, bindings, push, first, count, per_group);
+    const std::vector<std::uint32_t> flags = unanswered.read<std::uint32_t>(count, first);
+    std::vector<std::uint32_t> left;
+    for (std::size_t i = 0; i < flags.size(); ++i)
+        if (flags[i])
+            left.push_back(static_cast<std::uint32_t>(first + i));
+    return left;
+}
+
+// Runs the kernel a query at a time, again and again where it is not through; every dispatch brings each query on.
+void run_singly(const Gathering& about, const gpu::KernelSource& kernel, const std::vector<gpu::Binding>& more,
+                std::span<const std::byte> push, std::span<const std::uint32_t> queries, std::uint32_t saved_words) {
+    for (std::size_t begin = 0; begin < queries.size(); begin += LARGEST_SINGLE_COUNT) {
+        const std::span<const std::uint32_t> part =
+            queries.subspan(begin, std::min(LARGEST_SINGLE_COUNT, queries.size() - begin));
+        const gpu::Buffer saved(about.device, part.size() * saved_words * sizeof(std::uint32_t), "saved searches");
+        const gpu::Buffer unanswered(about.device, part.size() * sizeof(std::uint32_t), "unanswered queries");
+        gpu::Commands commands(about.device, about.stage);
+        commands.fill(saved, 0);
+        commands.fill(unanswered, 1);
+        commands.run();
+        std::vector<glm::uvec2> left; // query, slot
+        for (std::size_t slot = 0; slot < part.size(); ++slot)
+            left.emplace_back(part[slot], static_cast<std::uint32_t>(slot));
+        while (!left.empty()) {
+            const gpu::Buffer singles = gpu::make_buffer(about.device, left, "single queries");
+            std::vector<gpu::Binding> bindings = about.bind(more);
+            for (const char* name : {"saved_walks", "saved_lists", "saved_searches"})
+                bindings.push_back({name, saved});
+            bindings.push_back({"singles", singles});
+            bindings.push_back({"unanswered", unanswered});
+            run_chunks(about, kernel, bindings, push, 0, left.size(), 1);
+            const std::vector<std::uint32_t> flags = unanswered.read<std::uint32_t>(part.size());
+            std::erase_if(left, [&](const glm::uvec2& single) { return flags[single.y] == 0; });
+        }
+    }
+}
+
+void set_batches(std::span<std::byte> push, std::uint32_t batches) {
+    shared::GatherSettings settings;
+    std::memcpy(&settings, push.data(), sizeof settings);
+    settings.batches = batches;
+    std::memcpy(push.data(), &settings, sizeof settings);
+}
+
 } // namespace
 
-std::string find_flat_axes(const KdTree& tree) {
-    if (tree.count == 0)
-        return "";
-    const std::vector<glm::vec4> positions = tree.positions.read<glm::vec4>(tree.count);
-    const std::vector<glm::vec4> normals = tree.normals.read<glm::vec4>(tree.count);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        glm::vec3 along(0.0f);
-        along[axis] = normals[0][axis];
-        if (std::abs(along[axis]) != 1.0f)
-            continue;
-        for (std::size_t i = 0; i < positions.size(); ++i)
-            if (glm::vec3(normals[i]) != along || positions[i][axis] != positions[0][axis])
-                return "";
-        return PLANES[axis];
-    }
-    return "";
+void require_k(std::uint32_t k) {
+    if (k < 1 || k > LARGEST_K)
+        throw Error("k is " + std::to_string(k) + "; it must be 1 to " + std::to_string(LARGEST_K));
 }
 
-std::vector<std::string> list_parameter_defines(const GatherShape& shape) {
-    if (shape.parameter_count == 0)
-        return {};
-    std::vector<std::string> defines{"PARAMETER_COUNT " + std::to_string(shape.parameter_count) + "u",
-                                     "PARAMETER_ROWS " + std::to_string((shape.parameter_count + 3) / 4) + "u",
-                                     write_each("EACH_PARAMETER", shape.parameter_count)};
-    if (shape.has_periodic_parameters)
-        defines.emplace_back("PERIODIC_PARAMETERS");
-    if (!shape.range_axes.empty()) {
-        std::string axes = "TREE_RANGES uint[3](";
-        for (std::size_t i = 0; i < 3; ++i)
-            axes += (i ? ", " : "") + std::to_string(i < shape.range_axes.size() ? shape.range_axes[i] : 255) + "u";
-        defines.push_back(axes + ")");
-    }
-    return defines;
-}
-
-std::vector<std::string> list_gather_defines(const GatherShape& shape, std::uint32_t k) {
-    const std::uint32_t size = size_shell(k);
-    std::vector<std::string> defines{"SHELL_SIZE " + std::to_string(size) + "u", write_each("EACH_KEPT", size)};
-    if (!shape.flat_axes.empty())
-        defines.push_back("FLAT_AXES " + shape.flat_axes);
-    if (shape.period != std::array<float, 3>{})
-        defines.emplace_back("PERIODIC");
-    for (std::string& define : list_parameter_defines(shape))
-        defines.push_back(std::move(define));
-    return defines;
-}
-
-shared::GatherSettings make_gather_settings(const KdTree& tree, const GatherShape& shape, std::uint32_t k) {
+shared::GatherSettings make_gather_settings(const Neighborhood& neighborhood, std::uint32_t rank) {
     shared::GatherSettings settings{};
-    settings.period = {shape.period[0], shape.period[1], shape.period[2], 0.0f};
-    settings.photon_count = static_cast<std::uint32_t>(tree.count);
-    settings.leaf_level = tree.leaf_level;
-    settings.k = k;
-    settings.flatness = SURFACE_FLATNESS;
+    const auto& period = neighborhood.period;
+    settings.period = {period[0], period[1], period[2], 0.0f};
+    settings.photon_count = static_cast<std::uint32_t>(neighborhood.tree.count);
+    settings.leaf_level = neighborhood.tree.leaf_level;
+    settings.rank = rank;
+    settings.batches = BATCHES;
+    settings.flatness = neighborhood.flatness;
     return settings;
 }
 
-namespace {
-
-// One way to run a kernel: how many photons, how many of them a workgroup of one subgroup takes, and flags for them.
-struct GatherRun {
-    gpu::KernelSource kernel;
-    std::uint64_t total;
-    std::uint64_t per_group;
-    std::uint64_t flag_count;
-};
-
-// Runs it; returns the flags, set where photons were left unanswered.
-std::vector<std::uint32_t> gather_once(gpu::Device& device, const GatherRun& run, const gpu::Buffer& singles,
-                                       shared::GatherSettings settings, const std::string& stage,
-                                       const GatherDispatch& dispatch, const Progress& progress) {
-    const std::uint32_t width = device.limits().subgroup_size;
-    // All flags are set: a workgroup that the device stops for its loop turns clears none.
-    const gpu::Buffer unanswered =
-        gpu::make_buffer(device, std::vector<std::uint32_t>(run.flag_count, 1), "unanswered");
-    gpu::run_in_chunks(
-        device, stage, run.total, run.per_group * FIRST_GROUPS, progress,
-        [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
-            settings.first = static_cast<std::uint32_t>(first);
-            settings.count = static_cast<std::uint32_t>(count);
-            dispatch(commands, run.kernel, settings, {singles, unanswered},
-                     (count + run.per_group - 1) / run.per_group * width);
-        },
-        run.per_group * device.limits().max_group_count);
-    return unanswered.read<std::uint32_t>(run.flag_count);
-}
-
-bool has_flag(const std::vector<std::uint32_t>& flags) {
-    return std::any_of(flags.begin(), flags.end(), [](std::uint32_t flag) { return flag != 0; });
-}
-
-// Photons of the runs that are flagged.
-std::vector<std::uint32_t> list_flagged(const std::vector<std::uint32_t>& flags, std::uint32_t width,
-                                        std::uint64_t photon_count) {
-    std::vector<std::uint32_t> photons;
-    for (std::size_t run = 0; run < flags.size(); ++run)
-        for (std::uint64_t at = run * width; flags[run] && at < std::min(photon_count, (run + 1) * width); ++at)
-            photons.push_back(static_cast<std::uint32_t>(at));
-    return photons;
-}
-
-// Runs the kernel side by side; photons of the runs that were left unanswered.
-std::vector<std::uint32_t> find_unanswered(gpu::Device& device, const KdTree& tree, const gpu::KernelSource& kernel,
-                                           shared::GatherSettings settings, const std::string& stage,
-                                           const GatherDispatch& dispatch, const Progress& progress) {
-    const std::uint32_t width = device.limits().subgroup_size;
-    settings.batches = BATCHES;
-    const gpu::Buffer none = gpu::make_buffer(device, std::vector<std::uint32_t>{0}, "single photons");
-    return list_flagged(
-        gather_once(device, {kernel, tree.count, std::uint64_t{width} * BATCHES, (tree.count + width - 1) / width},
-                    none, settings, stage, dispatch, progress),
-        width, tree.count);
-}
-
-[[noreturn]] void refuse_crowd(const std::string& stage) {
-    throw CrowdError(stage + ": some photons reach more of the map than one workgroup can look through; are very many "
-                             "photons in one place, or of one layer spread over all of a large map?");
-}
-
-} // namespace
-
-bool try_gather(gpu::Device& device, const KdTree& tree, const std::string& kernel,
-                const std::vector<std::string>& defines, const shared::GatherSettings& settings,
-                const std::string& stage, const GatherDispatch& dispatch, const Progress& progress) {
-    if (tree.count == 0)
-        return true;
-    const std::vector<std::uint32_t> left =
-        find_unanswered(device, tree, {kernel, 0, defines, {}}, settings, stage, dispatch, progress);
-    if (left.empty())
-        return true;
-    std::vector<std::string> singly = defines;
-    singly.emplace_back("SINGLY");
-    const gpu::Buffer singles = gpu::make_buffer(device, left, "single photons");
-    return !has_flag(gather_once(device, {{kernel, 0, singly, {}}, left.size(), 1, left.size()}, singles, settings,
-                                 stage, dispatch, progress));
-}
-
-void run_gather(gpu::Device& device, const KdTree& tree, const std::string& kernel,
-                const std::vector<std::string>& defines, const shared::GatherSettings& settings,
-                const std::string& stage, const GatherDispatch& dispatch, const Progress& progress) {
-    if (!try_gather(device, tree, kernel, defines, settings, stage, dispatch, progress))
-        refuse_crowd(stage);
-}
-
-void run_gather_singly(gpu::Device& device, const KdTree& tree, const std::string& kernel,
-                       const std::vector<std::string>& defines, const shared::GatherSettings& settings,
-                       const std::string& stage, const GatherDispatch& dispatch, const Progress& progress) {
-    if (tree.count == 0)
+void find_radii(gpu::Device& device, const Neighborhood& neighborhood, const Queries& queries,
+                const RadiusSettings& settings, const gpu::Buffer& radii, const std::string& stage,
+                const Progress& progress) {
+    if (neighborhood.tree.count == 0 || queries.count == 0)
         return;
-    const gpu::Buffer none = gpu::make_buffer(device, std::vector<std::uint32_t>{0}, "single photons");
-    if (has_flag(gather_once(device, {{kernel, 0, defines, {}}, tree.count, 1, tree.count}, none, settings, stage,
-                             dispatch, progress)))
-        refuse_crowd(stage);
+    const Gathering about{device, neighborhood, queries, stage, progress};
+    std::vector<std::string> defines = list_defines(neighborhood, queries);
+    if (settings.leaves_self_out)
+        defines.emplace_back("WITHOUT_SELF");
+    std::vector<std::string> selecting = defines; // what those one by one are specialised to
+    selecting.emplace_back("BY_ID");
+    if (settings.cuts_ties) {
+        defines.emplace_back("CUT_TIES");
+        selecting.emplace_back("CUT_TIES");
+    }
+    if (settings.leaves_self_out)
+        defines.emplace_back("BY_ID");
+    if (settings.is_carried)
+        defines.emplace_back("CARRIED");
+    std::vector<std::string> searching = defines;
+    const std::uint32_t shell = size_shell(settings.rank);
+    searching.push_back("SHELL_SIZE " + std::to_string(shell) + "u");
+    searching.push_back(write_each_kept(shell));
+    shared::GatherSettings push = make_gather_settings(neighborhood, settings.rank);
+    push.includes_last = settings.includes_last ? 1 : 0;
+    push.carry = settings.carry;
+    const std::span<std::byte> bytes = std::as_writable_bytes(std::span(&push, 1));
+    const std::vector<std::uint32_t> left = run_side_by_side(about, {"photons/find_radii.comp", 0, searching, {}},
+                                                             {{"radii", radii}}, bytes, 0, queries.count, false);
+    if (left.empty())
+        return;
+    set_batches(bytes, 1);
+    const std::uint32_t capacity = size_list(settings.rank, device.limits().subgroup_size);
+    run_singly(about, {"photons/select_radius.comp", 0, selecting, {capacity}}, {{"radii", radii}}, bytes, left,
+               SAVED_SEARCH_HEAD + 2 * shared::TREE_STACK_SIZE + 3 * capacity);
+    if (settings.cuts_ties || !settings.needs_ties)
+        return;
+    defines = list_defines(neighborhood, queries);
+    defines.emplace_back("SINGLY");
+    run_singly(about, {"photons/count_ties.comp", 0, defines, {}}, {{"radii", radii}}, bytes, left, SAVED_WALK_WORDS);
+}
+
+void run_gather(gpu::Device& device, const Neighborhood& neighborhood, const Queries& queries,
+                const GatherKernel& kernel, std::span<const std::byte> push, std::uint64_t first, std::uint64_t count,
+                const std::string& stage, const Progress& progress) {
+    if (neighborhood.tree.count == 0 || count == 0)
+        return;
+    const Gathering about{device, neighborhood, queries, stage, progress};
+    std::vector<std::string> defines = list_defines(neighborhood, queries);
+    defines.insert(defines.end(), kernel.defines.begin(), kernel.defines.end());
+    const std::vector<std::uint32_t> left = run_side_by_side(about, {kernel.path, 0, defines, {}}, kernel.bindings,
+                                                             push, first, count, kernel.takes_subgroups);
+    if (left.empty())
+        return;
+    std::vector<std::byte> singly(push.begin(), push.end());
+    set_batches(singly, 1);
+    defines.emplace_back("SINGLY");
+    run_singly(about, {kernel.path, 0, defines, {}}, kernel.bindings, singly, left,
+               kernel.saved_words ? kernel.saved_words : SAVED_WALK_WORDS);
 }
 
 } // namespace photonloupe

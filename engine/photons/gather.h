@@ -1,58 +1,63 @@
 // SPDX-License-Identifier: Apache-2.0
-// How kernels in which the photons of a map gather from each other are run (shaders/photons/gather.glsl).
+// The one ladder by which queries are answered, whatever the photons are like: side by side; what that leaves, one by
+// one, each going on where the dispatch before stopped until it is done.
 #pragma once
 
-#include <functional>
-
-#include "gpu/commands.h"
-#include "photons/kd_tree.h"
+#include "photons/neighborhood.h"
 
 namespace photonloupe {
 
-// What the kernels are specialised to.
-struct GatherShape {
-    std::string flat_axes;             // "xz": all photons lie in one plane of these axes and share a normal; "": not
-    std::array<float, 3> period{};     // metres after which space repeats; 0: it does not
-    std::uint32_t parameter_count = 0; // of those that decide who is a neighbour
-    bool has_periodic_parameters = false;
-    std::vector<std::uint32_t> range_axes; // parameters whose ranges the tree's nodes know; empty: a tree of positions
+inline constexpr std::uint32_t LARGEST_K = 1000;
+
+// Throws Error unless k is 1 to LARGEST_K.
+void require_k(std::uint32_t k);
+
+// Of photons that ask for `neighbors` others: they count themselves, and the next one gives the radius.
+constexpr std::uint32_t rank_for(std::uint32_t neighbors) {
+    return neighbors + 2;
+}
+
+// Of which photon the measure is sought.
+struct RadiusSettings {
+    std::uint32_t rank = 0;     // from 1, nearest first; photons that ask count themselves
+    bool cuts_ties = false;     // members count whole, ties going to the nearer and then to the lower id …
+    bool includes_last = false; // … and the photon of the rank is one of them
+    bool leaves_self_out = false;
+    bool needs_ties = true; // the weight of photons at just the radius is wanted
+    float carry = 0;        // the radii hold squared radii of this share of what is sought; 0: nothing
+    bool is_carried = false; // those that are marked as carried over stay
 };
 
-// Finds out whether all photons of a tree lie in one plane of two axes, with one normal.
-std::string find_flat_axes(const KdTree& tree);
+// Bytes of a radius: a vec4, see shaders/photons/search_radius.glsl.
+inline constexpr std::uint64_t RADIUS_BYTES = 16;
 
-// What kernels that look at parameters are specialised to.
-std::vector<std::string> list_parameter_defines(const GatherShape& shape);
-// What kernels that find the radius of k neighbours are specialised to.
-std::vector<std::string> list_gather_defines(const GatherShape& shape, std::uint32_t k);
+// Finds the radius of every query.
+void find_radii(gpu::Device& device, const Neighborhood& neighborhood, const Queries& queries,
+                const RadiusSettings& settings, const gpu::Buffer& radii, const std::string& stage,
+                const Progress& progress);
 
-shared::GatherSettings make_gather_settings(const KdTree& tree, const GatherShape& shape, std::uint32_t k);
-
-// What every gathering kernel binds beside its own.
-struct GatherBuffers {
-    const gpu::Buffer& singles;    // tree positions of photons that are taken one by one
-    const gpu::Buffer& unanswered; // a flag for each subgroup's run of photons
+// A kernel in which queries meet their members; its push constants begin with shared::GatherSettings.
+struct GatherKernel {
+    std::string path;
+    std::vector<std::string> defines;
+    std::vector<gpu::Binding> bindings; // beside the tree's and the queries'
+    bool takes_subgroups = false;       // a subgroup takes one query at a time
+    std::uint32_t saved_words = 0;      // of a query that is not through; 0: as of photons/stream_members.glsl
 };
 
-// Records one dispatch; gets the kernel and the settings of its chunk.
-using GatherDispatch = std::function<void(gpu::Commands&, const gpu::KernelSource&, const shared::GatherSettings&,
-                                          const GatherBuffers&, std::uint64_t invocations)>;
+shared::GatherSettings make_gather_settings(const Neighborhood& neighborhood, std::uint32_t rank);
 
-// Runs a kernel over all photons of the tree, in tree order; photons that a workgroup's loop turns do not suffice for
-// are asked one by one in the end. False if that did not suffice either.
-bool try_gather(gpu::Device& device, const KdTree& tree, const std::string& kernel,
-                const std::vector<std::string>& defines, const shared::GatherSettings& settings,
-                const std::string& stage, const GatherDispatch& dispatch, const Progress& progress);
+// Runs a kernel over queries first … first + count - 1.
+void run_gather(gpu::Device& device, const Neighborhood& neighborhood, const Queries& queries,
+                const GatherKernel& kernel, std::span<const std::byte> push, std::uint64_t first, std::uint64_t count,
+                const std::string& stage, const Progress& progress);
 
-// Runs a kernel over all photons of the tree, in tree order. Throws Error where photons are so crowded that a
-// workgroup cannot look through those it reaches.
-void run_gather(gpu::Device& device, const KdTree& tree, const std::string& kernel,
-                const std::vector<std::string>& defines, const shared::GatherSettings& settings,
-                const std::string& stage, const GatherDispatch& dispatch, const Progress& progress);
-
-// The same for kernels in which a subgroup takes one photon at a time.
-void run_gather_singly(gpu::Device& device, const KdTree& tree, const std::string& kernel,
-                       const std::vector<std::string>& defines, const shared::GatherSettings& settings,
-                       const std::string& stage, const GatherDispatch& dispatch, const Progress& progress);
+// The same over all of them.
+template <class Push>
+void gather(gpu::Device& device, const Neighborhood& neighborhood, const Queries& queries, const GatherKernel& kernel,
+            const Push& push, const std::string& stage, const Progress& progress) {
+    run_gather(device, neighborhood, queries, kernel, std::as_bytes(std::span(&push, 1)), 0, queries.count, stage,
+               progress);
+}
 
 } // namespace photonloupe

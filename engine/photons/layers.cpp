@@ -1,49 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// Builds the tree over parameters, finds r_q in it, and puts parameters in tree order.
+// Packs parameters into rows, builds the trees that know them, and finds r_q.
 #include "photons/layers.h"
 
 #include <bit>
 #include <cmath>
-#include <numeric>
 #include <sstream>
-
-#include "photons/query_tree.h"
 
 namespace photonloupe {
 namespace {
 
 constexpr const char* STAGE = "find layers";
-// The tree's boxes have three axes.
-constexpr std::size_t TREE_AXES = 3;
+constexpr std::uint32_t GROUP = 64;
 
 // Squares of parameters must be floats, and squares of their differences too.
 constexpr float LARGEST_PARAMETER = 1e18f;
 constexpr float LEAST_EXTENT = 1e-12f;
+// Layer numbers are floats: above this some whole numbers are missing.
+constexpr std::int32_t LARGEST_EMITTER = (1 << 24) - 2;
 
 struct Extents {
-    std::vector<float> lo, hi;
+    std::vector<float> lo, hi; // of the photons that are set
+    std::size_t set_count = 0;
 };
 
 bool is_set(const float* values, std::uint32_t count) {
     return std::all_of(values, values + count, [](float value) { return !std::isnan(value); });
-}
-
-// Of the photons that are set.
-Extents find_extents(const std::vector<float>& values, std::uint32_t count, std::size_t stride) {
-    Extents extents{std::vector<float>(count, std::numeric_limits<float>::max()),
-                    std::vector<float>(count, std::numeric_limits<float>::lowest())};
-    for (std::size_t row = 0; row < values.size(); row += stride) {
-        if (!is_set(&values[row], count))
-            continue;
-        for (std::uint32_t i = 0; i < count; ++i) {
-            extents.lo[i] = std::min(extents.lo[i], values[row + i]);
-            extents.hi[i] = std::max(extents.hi[i], values[row + i]);
-        }
-    }
-    for (std::uint32_t i = 0; i < count; ++i)
-        if (extents.lo[i] > extents.hi[i])
-            extents.lo[i] = extents.hi[i] = 0.0f; // no photon is set
-    return extents;
 }
 
 // Distances between parameters beyond these would be infinite or nothing, silently.
@@ -66,14 +47,30 @@ void check_extents(const Extents& extents) {
     }
 }
 
-// Parameters in the order of their extent, widest first.
-std::vector<std::uint32_t> order_by_extent(const Extents& extents) {
-    std::vector<std::uint32_t> order(extents.lo.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return extents.hi[a] - extents.lo[a] > extents.hi[b] - extents.lo[b];
-    });
-    return order;
+// What a user should know of parameters that tell no photons apart.
+std::vector<std::string> judge_extents(const ParameterColumns& columns, const Extents& extents) {
+    std::string constant;
+    std::size_t constant_count = 0;
+    for (std::size_t i = 0; i < columns.count; ++i)
+        if (extents.lo[i] == extents.hi[i]) {
+            constant += (constant_count++ ? ", '" : "'") + columns.axes[i].name + "'";
+        }
+    if (extents.set_count == 0)
+        return {"no photon has parameters: all count as one layer, as in world space; set them, or use "
+                "constraint=\"world\""};
+    if (constant_count == columns.count)
+        return {"the parameter" + std::string(columns.count > 1 ? "s " : " ") + constant +
+                (columns.count > 1 ? " are" : " is") +
+                " the same for all photons: they tell none apart, and each emitter's are one layer, as in world space; "
+                "compute something that differs, or use constraint=\"world\""};
+    return {};
+}
+
+std::vector<glm::vec4> pack_periods(const ParameterColumns& columns, std::uint32_t row_count) {
+    std::vector<glm::vec4> periods(row_count, glm::vec4(0.0f));
+    for (std::uint32_t i = 0; i < columns.count; ++i)
+        periods[(i + 1) / 4][static_cast<int>((i + 1) % 4)] = columns.periods[i];
+    return periods;
 }
 
 } // namespace
@@ -95,124 +92,118 @@ ParameterColumns make_parameters(gpu::Device& device, std::span<const float> val
     return columns;
 }
 
-float measure_parameters(std::uint32_t count, std::span<const float> periods, std::span<const glm::vec4> a,
-                         std::span<const glm::vec4> b) {
-    float sum = 0.0f;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        float d = a[i / 4][i % 4] - b[i / 4][i % 4];
-        if (periods[i] > 0.0f)
-            d = d - periods[i] * std::nearbyint(d * (1.0f / periods[i]));
-        sum = sum + d * d;
-    }
-    return sum;
-}
-
 const ParameterColumns& require_parameters(const PhotonMap& photons) {
     if (!photons.parameters)
         throw Error("this map has no parameters; set them with set_parameters() or a script");
     return *photons.parameters;
 }
 
-ParameterTree build_parameter_tree(gpu::Device& device, const PhotonMap& photons, const Progress& progress) {
+float number_layer(std::int32_t emitter, bool is_set) {
+    if (emitter < 0 || emitter > LARGEST_EMITTER)
+        throw Error("emitter " + std::to_string(emitter) + ": photons with parameters may have emitters 0 to " +
+                    std::to_string(LARGEST_EMITTER) + "; number them anew");
+    return static_cast<float>(is_set ? emitter + 1 : -emitter - 1);
+}
+
+ParameterRows make_parameter_rows(gpu::Device& device, const PhotonMap& photons) {
     const ParameterColumns& columns = require_parameters(photons);
-    const std::size_t stride = 4 * columns.count_rows();
+    ParameterRows made;
+    made.rows.axis_count = columns.count + 1;
+    made.has_periods = columns.is_periodic();
+    const std::size_t stride = 4 * columns.count_rows(), row_count = made.rows.count_rows();
     const std::vector<float> values = columns.values.read<float>(photons.count * stride);
-    const Extents extents = find_extents(values, columns.count, stride);
-    check_extents(extents);
-    const std::vector<std::uint32_t> order = order_by_extent(extents);
-    const std::size_t axis_count = std::min<std::size_t>(TREE_AXES, columns.count);
     const std::vector<glm::vec4> positions = photons.position_emitter.read<glm::vec4>(photons.count);
-    std::vector<glm::vec4> widest(photons.count);
-    for (std::size_t i = 0; i < widest.size(); ++i) {
-        const bool has_values = is_set(&values[i * stride], columns.count);
-        for (std::size_t axis = 0; axis < axis_count; ++axis)
-            widest[i][axis] = has_values ? values[i * stride + order[axis]] : extents.lo[order[axis]];
-        widest[i].w = positions[i].w;
+    std::vector<float> rows(photons.count * 4 * row_count, 0.0f);
+    Extents extents{std::vector<float>(columns.count, std::numeric_limits<float>::max()),
+                    std::vector<float>(columns.count, std::numeric_limits<float>::lowest())};
+    for (std::size_t id = 0; id < photons.count; ++id) {
+        const float* own = &values[id * stride];
+        float* row = &rows[id * 4 * row_count];
+        const bool has_values = is_set(own, columns.count);
+        row[0] = number_layer(std::bit_cast<std::int32_t>(positions[id].w), has_values);
+        extents.set_count += has_values;
+        for (std::uint32_t i = 0; i < columns.count && has_values; ++i) {
+            row[i + 1] = own[i];
+            extents.lo[i] = std::min(extents.lo[i], own[i]);
+            extents.hi[i] = std::max(extents.hi[i], own[i]);
+        }
     }
-    PhotonMap stand_in;
-    stand_in.count = photons.count;
-    stand_in.position_emitter = gpu::make_buffer(device, widest, "parameters");
-    stand_in.normal_index = gpu::make_buffer(device, std::vector<glm::vec4>(photons.count), "parameters");
-    ParameterTree parameter_tree;
-    parameter_tree.axes.assign(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(axis_count));
-    parameter_tree.tree = build_tree(device, stand_in, progress);
-    double limit2 = 0;
-    for (std::uint32_t i = 0; i < columns.count; ++i)
-        limit2 += std::pow(static_cast<double>(extents.hi[i]) - extents.lo[i], 2);
-    parameter_tree.limit2 = static_cast<float>(std::min(limit2 * 1.001 + 1e-30, 1e38));
-    for (std::size_t axis = 0; axis < axis_count; ++axis)
-        parameter_tree.shape.period[axis] = columns.periods[order[axis]];
-    add_parameters(parameter_tree.shape, photons);
-    parameter_tree.parameters = order_parameters(device, photons, parameter_tree.tree, {}, 1.0f, progress).parameters;
-    parameter_tree.periods = gpu::make_buffer(device, columns.periods, "parameter periods");
-    return parameter_tree;
+    if (extents.set_count == 0)
+        extents.lo = extents.hi = std::vector<float>(columns.count, 0.0f);
+    check_extents(extents);
+    made.notes = judge_extents(columns, extents);
+    made.rows.values = gpu::make_buffer(device, rows, "parameter rows");
+    made.periods = gpu::make_buffer(device, pack_periods(columns, made.rows.count_rows()), "parameter periods");
+    return made;
 }
 
-void add_parameters(GatherShape& shape, const PhotonMap& photons) {
-    const ParameterColumns& columns = require_parameters(photons);
-    shape.parameter_count = columns.count;
-    shape.has_periodic_parameters = columns.is_periodic();
+ParameterTree build_parameter_tree(gpu::Device& device, const PhotonMap& photons,
+                                   std::shared_ptr<const ParameterRows> parameters, const Progress& progress) {
+    KdTree tree = build_tree(device, photons, parameters->rows, TreeAxes::ranges, progress);
+    return {std::move(parameters), std::move(tree)};
 }
 
-Layers order_parameters(gpu::Device& device, const PhotonMap& photons, const KdTree& tree, const gpu::Buffer& radii2,
-                        float beta, const Progress& progress) {
-    const ParameterColumns& columns = require_parameters(photons);
-    Layers layers{gpu::Buffer(device, columns.values.size_bytes(), "parameters in tree order"),
-                  gpu::Buffer(device, std::max<std::uint64_t>(photons.count, 1) * sizeof(float), "reach of layers"),
-                  gpu::make_buffer(device, columns.periods, "parameter periods")};
-    struct Push {
-        std::uint32_t first, count;
-        float beta;
-        std::uint32_t pad;
-    };
-    gpu::run_in_chunks(
-        device, STAGE, photons.count, 1 << 14, progress,
-        [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
-            const Push push{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count), beta, 0};
-            commands.dispatch({"photons/gather_parameters.comp",
-                               64,
-                               {"PARAMETER_ROWS " + std::to_string(columns.count_rows()) + "u"},
-                               {}},
-                              {{"tree_positions", tree.positions},
-                               {"parameter_values", columns.values},
-                               {"parameter_radii2", radii2.is_empty() ? layers.reach2 : radii2},
-                               {"tree_parameters", layers.parameters},
-                               {"parameter_reach", layers.reach2}},
-                              push, count);
-        });
-    return layers;
+ParameterTree build_layered_tree(gpu::Device& device, const PhotonMap& photons,
+                                 std::shared_ptr<const ParameterRows> parameters, const Progress& progress) {
+    KdTree tree = build_tree(device, photons, parameters->rows, TreeAxes::both, progress);
+    return {std::move(parameters), std::move(tree)};
 }
 
-gpu::Buffer find_parameter_radii2(gpu::Device& device, const PhotonMap& photons, const ParameterTree& parameter_tree,
-                                  std::uint32_t k, const Progress& progress) {
+Neighborhood look_in(const ParameterTree& tree, Measure measure) {
+    Neighborhood neighborhood{tree.tree, measure};
+    neighborhood.axis_count = tree.parameters->rows.axis_count;
+    neighborhood.row_periods = &tree.parameters->periods;
+    neighborhood.has_periods = tree.parameters->has_periods;
+    return neighborhood;
+}
+
+gpu::Buffer find_parameter_radii(gpu::Device& device, const ParameterTree& tree, const Queries& queries,
+                                 std::uint32_t k, const Progress& progress) {
     require_k(k);
-    gpu::Buffer radii2(device, std::max<std::uint64_t>(photons.count, 1) * sizeof(float), "radii in parameter space");
-    shared::GatherSettings settings = make_gather_settings(parameter_tree.tree, parameter_tree.shape, k - 1);
-    settings.flatness = parameter_tree.limit2;
-    run_gather(
-        device, parameter_tree.tree, "photons/find_parameter_radius.comp",
-        list_gather_defines(parameter_tree.shape, k - 1), settings, STAGE,
-        [&](gpu::Commands& commands, const gpu::KernelSource& kernel, const shared::GatherSettings& push,
-            const GatherBuffers& buffers, std::uint64_t invocations) {
-            commands.dispatch(kernel,
-                              {{"tree_nodes", parameter_tree.tree.nodes},
-                               {"tree_positions", parameter_tree.tree.positions},
-                               {"tree_normals", parameter_tree.tree.normals},
-                               {"tree_parameters", parameter_tree.parameters},
-                               {"parameter_periods", parameter_tree.periods},
-                               {"parameter_radii2", radii2},
-                               {"singles", buffers.singles},
-                               {"unanswered", buffers.unanswered}},
-                              push, invocations);
-        },
-        progress);
-    return radii2;
+    gpu::Buffer radii(device, std::max<std::uint64_t>(queries.count, 1) * RADIUS_BYTES, "radii in parameter space");
+    RadiusSettings settings{k + 1}; // and the photon itself
+    settings.needs_ties = false;
+    find_radii(device, look_in(tree, Measure::parameters), queries, settings, radii, STAGE, progress);
+    return radii;
 }
 
-Layers find_layers(gpu::Device& device, const PhotonMap& photons, const ParameterTree& parameter_tree,
-                   const KdTree& tree, std::uint32_t k, float beta, const Progress& progress) {
-    const gpu::Buffer radii2 = find_parameter_radii2(device, photons, parameter_tree, k, progress);
-    return order_parameters(device, photons, tree, radii2, beta, progress);
+gpu::Buffer find_layer_reaches(gpu::Device& device, const ParameterTree& by_parameters, const KdTree& layered,
+                               std::uint32_t k, float beta, const Progress& progress) {
+    const KdTree& tree = by_parameters.tree;
+    const gpu::Buffer radii = find_parameter_radii(device, by_parameters, ask_photons(tree), k, progress);
+    const std::uint64_t bytes = std::max<std::uint64_t>(tree.count, 1) * sizeof(float);
+    const gpu::Buffer by_id(device, bytes, "reaches of layers");
+    gpu::Buffer reaches(device, bytes, "reaches of layers");
+    const auto run = [&](const char* kernel, const KdTree& order, const gpu::Buffer& to) {
+        gpu::run_in_chunks(device, STAGE, tree.count, 1 << 14, progress,
+                           [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
+                               const shared::ReachSettings push{static_cast<std::uint32_t>(first),
+                                                                static_cast<std::uint32_t>(count), k, beta};
+                               commands.dispatch({kernel, GROUP, {}, {}},
+                                                 {{"tree_positions", order.positions},
+                                                  {"radii", radii},
+                                                  {"reaches_by_id", by_id},
+                                                  {"tree_reaches", to}},
+                                                 push, count);
+                           });
+    };
+    run("photons/scale_reaches.comp", tree, reaches);
+    run("photons/order_reaches.comp", layered, reaches);
+    return reaches;
+}
+
+double measure_boundless_share(const ParameterTree& tree, std::span<const float> reaches2) {
+    const std::uint32_t rows = tree.tree.range_rows;
+    const std::vector<glm::vec4> box = tree.tree.ranges.read<glm::vec4>(2 * rows, 2 * rows);
+    double extent2 = 0;
+    for (std::uint32_t axis = 1; axis < tree.parameters->rows.axis_count; ++axis) {
+        const int at = static_cast<int>(axis % 4);
+        extent2 += std::pow(static_cast<double>(box[rows + axis / 4][at]) - box[axis / 4][at], 2);
+    }
+    const auto boundless = std::count_if(reaches2.begin(), reaches2.end(), [&](float reach2) {
+        return std::isfinite(reach2) && static_cast<double>(reach2) >= extent2;
+    });
+    return reaches2.empty() ? 0.0 : static_cast<double>(boundless) / static_cast<double>(reaches2.size());
 }
 
 } // namespace photonloupe

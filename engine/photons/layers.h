@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parameters of photons in tree order, and how far each photon's layer reaches in parameter space (METHODS §4).
+// Parameters of photons as rows of layer number and parameters, the trees that know them, and how far each photon's
+// layer reaches in parameter space (METHODS §4).
 #pragma once
 
 #include <span>
@@ -9,49 +10,52 @@
 
 namespace photonloupe {
 
-// A tree over the three widest parameters, for exact queries in the space of all of them.
-struct ParameterTree {
-    KdTree tree;                     // `positions` holds the widest parameters, `normals.w` the emitter
-    GatherShape shape;               // its period is that of those axes
-    gpu::Buffer parameters;          // in the tree's order
-    gpu::Buffer periods;             // a float per parameter, 0: it does not wrap
-    std::vector<std::uint32_t> axes; // the parameters that the tree's axes are
-    float limit2 = 0;                // beyond every squared distance
-};
-
-// The photons of a tree as kernels gather them.
-struct Layers {
-    gpu::Buffer parameters;              // vec4 rows; empty without parameters
-    gpu::Buffer reach2;                  // (β·r_q)²
-    gpu::Buffer periods;                 // as in ParameterTree
-    const gpu::Buffer* ranges = nullptr; // of the nodes of a layered tree
-};
-
 // Packs a value per axis and photon and uploads them; a photon with a NaN among them has none at all.
 ParameterColumns make_parameters(gpu::Device& device, std::span<const float> values, std::vector<ParameterAxis> axes);
-
-// Squared distance of packed rows, in the kernels' order of operations; NaN where either photon has none.
-float measure_parameters(std::uint32_t count, std::span<const float> periods, std::span<const glm::vec4> a,
-                         std::span<const glm::vec4> b);
 
 // Throws Error when the map has none.
 const ParameterColumns& require_parameters(const PhotonMap& photons);
 
-ParameterTree build_parameter_tree(gpu::Device& device, const PhotonMap& photons, const Progress& progress = {});
+// A map's parameters for searches.
+struct ParameterRows {
+    RangeRows rows;      // by photon id: layer number, parameters (0 where a photon has none)
+    gpu::Buffer periods; // a vec4 for each of a row's: periods of its axes, 0: it does not wrap
+    bool has_periods = false;
+    std::vector<std::string> notes; // what makes parameter space useless, with the cure
+};
 
-// Makes kernels of that shape look at the map's parameters.
-void add_parameters(GatherShape& shape, const PhotonMap& photons);
+// The number of a photon's layer: emitter + 1, negative where it has no parameters.
+float number_layer(std::int32_t emitter, bool is_set);
 
-// Squared r_q(i), the distance to the k-th neighbour in parameter space, by photon id; inf where there are fewer.
-gpu::Buffer find_parameter_radii2(gpu::Device& device, const PhotonMap& photons, const ParameterTree& parameter_tree,
-                                  std::uint32_t k, const Progress& progress = {});
+// Throws Error for parameters whose distances no 32-bit float holds.
+ParameterRows make_parameter_rows(gpu::Device& device, const PhotonMap& photons);
 
-// Parameters in the order of a tree, and (β·r_q)² from squared r_q by id (empty: not wanted).
-Layers order_parameters(gpu::Device& device, const PhotonMap& photons, const KdTree& tree, const gpu::Buffer& radii2,
-                        float beta, const Progress& progress = {});
+// A tree that knows parameters, with what searches in it need.
+struct ParameterTree {
+    std::shared_ptr<const ParameterRows> parameters;
+    KdTree tree;
+};
 
-// Both together: the layers of the photons of `tree`, reaching β times the distance to the k-th neighbour.
-Layers find_layers(gpu::Device& device, const PhotonMap& photons, const ParameterTree& parameter_tree,
-                   const KdTree& tree, std::uint32_t k, float beta, const Progress& progress = {});
+// Split along parameters alone: for queries in parameter space.
+ParameterTree build_parameter_tree(gpu::Device& device, const PhotonMap& photons,
+                                   std::shared_ptr<const ParameterRows> parameters, const Progress& progress = {});
+// Split along positions and parameters: for queries in space among the photons of a layer.
+ParameterTree build_layered_tree(gpu::Device& device, const PhotonMap& photons,
+                                 std::shared_ptr<const ParameterRows> parameters, const Progress& progress = {});
+
+// What is sought in such a tree; layers and intervals are still to be named.
+Neighborhood look_in(const ParameterTree& tree, Measure measure);
+
+// The distance r_q of each query to its k-th neighbour in parameter space as radii (x squared, w photons found, their own
+// photon among them).
+gpu::Buffer find_parameter_radii(gpu::Device& device, const ParameterTree& tree, const Queries& queries,
+                                 std::uint32_t k, const Progress& progress = {});
+
+// (β·r_q)² of all photons in the order of `layered`; r_q is inf where fewer than k have parameters.
+gpu::Buffer find_layer_reaches(gpu::Device& device, const ParameterTree& by_parameters, const KdTree& layered,
+                               std::uint32_t k, float beta, const Progress& progress = {});
+
+// The share of photons whose layer reaches over all of parameter space, from their squared reaches.
+double measure_boundless_share(const ParameterTree& tree, std::span<const float> reaches2);
 
 } // namespace photonloupe

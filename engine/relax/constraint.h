@@ -15,9 +15,8 @@ struct Constraint {
     gpu::Buffer member_radii; // x r², y weight at r, z one-sidedness, w axis ratio t
 };
 
-// Measures a descriptor for every photon of the tree. `radii` holds squared radii to begin with (0: unknown) and gets
-// the ones found.
-Constraint measure_constraint(gpu::Device& device, const KdTree& tree, const GatherShape& shape, const Layers& layers,
+// Measures a descriptor for every photon of the neighborhood's tree. `radii` gets the radii found.
+Constraint measure_constraint(gpu::Device& device, const Neighborhood& neighborhood, const Queries& queries,
                               const ConstraintSettings& settings, const gpu::Buffer& radii, const Progress& progress);
 
 } // namespace photonloupe

@@ -18,32 +18,14 @@ std::array<double, 3> sum_power(const std::vector<glm::vec4>& power) {
 
 } // namespace
 
-double diffuse_flux(gpu::Device& device, const KdTree& tree, const GatherShape& shape, const Layers& layers,
+double diffuse_flux(gpu::Device& device, const Neighborhood& neighborhood, const Queries& queries,
                     const gpu::Buffer& radii, gpu::Buffer& power, const Progress& progress) {
-    const gpu::Buffer diffused(device, tree.count * sizeof(glm::vec4), "diffused fluxes");
-    run_gather(
-        device, tree, "relax/diffuse_flux.comp", list_gather_defines(shape, 1), make_gather_settings(tree, shape, 1),
-        "diffuse flux",
-        [&](gpu::Commands& commands, const gpu::KernelSource& kernel, const shared::GatherSettings& push,
-            const GatherBuffers& buffers, std::uint64_t invocations) {
-            commands.dispatch(kernel,
-                              {{"tree_nodes", tree.nodes},
-                               {"tree_positions", tree.positions},
-                               {"tree_normals", tree.normals},
-                               {"tree_parameters", layers.parameters.is_empty() ? tree.positions : layers.parameters},
-                               {"tree_ranges", layers.ranges ? *layers.ranges : tree.positions},
-                               {"parameter_reach", layers.reach2.is_empty() ? radii : layers.reach2},
-                               {"parameter_periods", layers.periods.is_empty() ? radii : layers.periods},
-                               {"tree_power", power},
-                               {"radii", radii},
-                               {"diffused_power", diffused},
-                               {"singles", buffers.singles},
-                               {"unanswered", buffers.unanswered}},
-                              push, invocations);
-        },
-        progress);
-    const std::array<double, 3> before = sum_power(power.read<glm::vec4>(tree.count));
-    std::vector<glm::vec4> fluxes = diffused.read<glm::vec4>(tree.count);
+    const gpu::Buffer diffused(device, queries.count * sizeof(glm::vec4), "diffused fluxes");
+    const GatherKernel kernel{
+        "relax/diffuse_flux.comp", {}, {{"tree_power", power}, {"radii", radii}, {"diffused_power", diffused}}};
+    gather(device, neighborhood, queries, kernel, make_gather_settings(neighborhood, 1), "diffuse flux", progress);
+    const std::array<double, 3> before = sum_power(power.read<glm::vec4>(queries.count));
+    std::vector<glm::vec4> fluxes = diffused.read<glm::vec4>(queries.count);
     const std::array<double, 3> after = sum_power(fluxes);
     double drift = 0;
     std::array<double, 3> scale{1, 1, 1};

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
+#include <sstream>
 
 #include "relax/flux_diffusion.h"
 
@@ -15,6 +17,10 @@ namespace {
 constexpr const char* STAGE = "relax photons";
 constexpr std::uint32_t GROUP = 64;
 constexpr std::uint64_t FIRST_CHUNK = 1 << 14; // photons
+// Radii that a photon may go before the tree is built anew: its leaf is about as wide as a few of them.
+constexpr double LONGEST_TRAVEL = 4.0;
+// Of the photons; with so many layers that reach everywhere the user is told.
+constexpr double BOUNDLESS_SHARE = 0.5;
 
 // Squared radius of K neighbours as a share of that of `other` neighbours, on even density.
 float scale_radius2(std::uint32_t k, std::uint32_t other) {
@@ -45,53 +51,128 @@ float find_spacing(const KdTree& tree) {
     return std::max(largest * 2.0f * std::numeric_limits<float>::epsilon(), 1e-15f);
 }
 
+// Brings columns from the order of one tree (`before`: its photons) into that of another.
+template <class T>
+void bring(const std::vector<glm::vec4>& before, const KdTree& tree, std::initializer_list<gpu::Buffer*> columns) {
+    std::vector<std::uint32_t> place(before.size()); // by photon id
+    for (std::uint32_t at = 0; at < before.size(); ++at)
+        place[std::bit_cast<std::uint32_t>(before[at].w)] = at;
+    const std::vector<glm::vec4> now = tree.positions.read<glm::vec4>(before.size());
+    for (gpu::Buffer* column : columns) {
+        if (column->is_empty())
+            continue;
+        const std::vector<T> rows = column->read<T>(before.size());
+        std::vector<T> brought(before.size());
+        for (std::size_t at = 0; at < now.size(); ++at)
+            brought[at] = rows[place[std::bit_cast<std::uint32_t>(now[at].w)]];
+        column->upload(brought.data(), brought.size() * sizeof(T));
+    }
+}
+
+void bring_rows(const std::vector<glm::vec4>& before, const KdTree& tree, std::initializer_list<gpu::Buffer*> columns) {
+    bring<glm::vec4>(before, tree, columns);
+}
+
+void bring_numbers(const std::vector<glm::vec4>& before, const KdTree& tree,
+                   std::initializer_list<gpu::Buffer*> columns) {
+    bring<std::uint32_t>(before, tree, columns);
+}
+
 } // namespace
 
 Relaxation::Relaxation(gpu::Device& device, const PhotonMap& photons, const KdTree& tree, const LayerTrees& trees,
                        const RelaxSettings& settings, RelaxSurface surface, const Progress& progress)
     : m_device(device), m_photons(photons), m_settings(settings), m_surface(std::move(surface)),
-      m_tree(copy_tree(device, trees.layered ? trees.layered->tree : tree)) {
+      m_tree(copy_tree(device, settings.repel == Space::parameter ? trees.layered->tree : tree)) {
     const std::uint64_t count = photons.count;
     if (count == 0)
         return;
+    m_moves = make_filled(device, count * sizeof(glm::vec4), "moves");
+    m_radii = make_filled(device, count * RADIUS_BYTES, "radii");
+    m_flat_axes = find_flat_axes(m_tree);
+    constrain(trees, progress);
+    take_layers(trees, progress);
     if (m_surface.scene)
         shift_photons();
     m_start = gpu::Buffer(device, count * sizeof(glm::vec4), "photons before relaxation");
     m_next = gpu::Buffer(device, count * sizeof(glm::vec4), "photons after a step");
-    m_moves = make_filled(device, count * sizeof(glm::vec4), "moves");
-    m_radii = make_filled(device, count * sizeof(float), "radii");
     gpu::Commands commands(device, STAGE);
     commands.copy(m_tree.positions, 0, m_start, 0, count * sizeof(glm::vec4));
     commands.run();
-
-    GatherShape shape;
-    shape.period = settings.period;
-    shape.flat_axes = find_flat_axes(m_tree);
     m_spacing = find_spacing(m_tree);
-    const ConstraintSettings& constraint = settings.constraint;
-    const auto find_layers_of = [&](Space space, std::uint32_t k, float beta, GatherShape& layered) {
-        if (space == Space::world)
-            return Layers{};
-        add_parameters(layered, photons);
-        Layers layers = find_layers(device, photons, *trees.parameters, m_tree, k, beta, progress);
-        if (trees.layered) {
-            layers.ranges = &trees.layered->ranges;
-            layered.range_axes = list_range_axes(photons, *trees.parameters);
-        }
-        return layers;
-    };
-    GatherShape constraint_shape = shape;
-    if (constraint.descriptor != Descriptor::none) {
-        const Layers layers = find_layers_of(constraint.space, constraint.neighbors, constraint.beta, constraint_shape);
-        m_constraint = measure_constraint(device, m_tree, constraint_shape, layers, constraint, m_radii, progress);
-        m_carry = scale_radius2(settings.neighbors, constraint.neighbors);
-    }
-    m_shape = shape;
-    m_layered = trees.layered;
-    m_parameter_rows = photons.parameters ? photons.parameters->count_rows() : 0;
-    m_layers = find_layers_of(settings.repel, settings.neighbors, settings.beta, m_shape);
     if (settings.diffuse_flux)
         order_power();
+}
+
+// Measures the constraint in the tree that suits it and brings it into the order of the photons' own.
+void Relaxation::constrain(const LayerTrees& trees, const Progress& progress) {
+    const ConstraintSettings& constraint = m_settings.constraint;
+    if (constraint.descriptor == Descriptor::none)
+        return;
+    m_carry = scale_radius2(m_settings.neighbors, constraint.neighbors);
+    if (constraint.space == Space::world) {
+        Neighborhood world{m_tree, Measure::surface};
+        world.period = m_settings.period;
+        world.flat_axes = m_flat_axes;
+        m_constraint = measure_constraint(m_device, world, ask_photons(m_tree), constraint, m_radii, progress);
+        return;
+    }
+    const ParameterTree& layered = *trees.layered;
+    m_notes = layered.parameters->notes;
+    const gpu::Buffer reach2 = find_layer_reaches(m_device, *trees.by_parameters, layered.tree, constraint.neighbors,
+                                                  constraint.beta, progress);
+    note_reaches(layered, reach2, "constraint", constraint.beta);
+    Neighborhood layers = look_in(layered, Measure::surface);
+    layers.is_layered = true;
+    layers.period = m_settings.period;
+    layers.flat_axes = m_flat_axes;
+    m_constraint =
+        measure_constraint(m_device, layers, ask_photons(layered.tree, &reach2), constraint, m_radii, progress);
+    if (m_settings.repel == Space::world)
+        bring_rows(layered.tree.positions.read<glm::vec4>(m_photons.count), m_tree,
+                   {&m_constraint.along, &m_constraint.across, &m_constraint.offsets, &m_constraint.member_radii,
+                    &m_radii});
+}
+
+void Relaxation::take_layers(const LayerTrees& trees, const Progress& progress) {
+    if (m_settings.repel == Space::world)
+        return;
+    m_parameters = trees.layered->parameters;
+    m_reach2 = find_layer_reaches(m_device, *trees.by_parameters, m_tree, m_settings.neighbors, m_settings.beta,
+                                  progress);
+    if (m_notes.empty()) {
+        m_notes = m_parameters->notes;
+        note_reaches(*trees.layered, m_reach2, "repulsion", m_settings.beta);
+    }
+}
+
+void Relaxation::note_reaches(const ParameterTree& tree, const gpu::Buffer& reaches2, const char* of, float beta) {
+    const double share = measure_boundless_share(tree, reaches2.read<float>(m_photons.count));
+    if (share < BOUNDLESS_SHARE || !tree.parameters->notes.empty())
+        return;
+    std::ostringstream text;
+    text << "the layers of the " << of << " reach over all of parameter space for " << std::round(100.0 * share)
+         << " % of the photons at beta " << beta << ": they keep nothing apart, as in world space; take a smaller beta "
+         << "or fewer neighbors";
+    m_notes.push_back(text.str());
+}
+
+// What the photons look for in each step, where they are now.
+Neighborhood Relaxation::look() const {
+    Neighborhood neighborhood{m_tree, Measure::surface};
+    neighborhood.period = m_settings.period;
+    neighborhood.flat_axes = m_flat_axes;
+    if (m_parameters) {
+        neighborhood.is_layered = true;
+        neighborhood.axis_count = m_parameters->rows.axis_count;
+        neighborhood.row_periods = &m_parameters->periods;
+        neighborhood.has_periods = m_parameters->has_periods;
+    }
+    return neighborhood;
+}
+
+Queries Relaxation::ask() const {
+    return ask_photons(m_tree, m_parameters ? &m_reach2 : nullptr);
 }
 
 void Relaxation::order_power() {
@@ -136,83 +217,55 @@ void Relaxation::find_surface(const Progress& progress) {
 void Relaxation::repel(float tau, const Progress& progress) {
     const float limiter =
         m_settings.limit > 0 ? std::numbers::ln2_v<float> / (m_settings.limit * m_settings.limit) : 0.0f;
-    shared::RepelSettings push{make_gather_settings(m_tree, m_shape, m_settings.neighbors), tau, limiter, m_spacing, 0};
-    push.gather.carry = m_carry;
-    std::vector<std::string> defines = list_gather_defines(m_shape, m_settings.neighbors);
-    if (m_settings.search == RadiusSearch::carried && m_step > 0) // the first step seeks its radii
-        defines.emplace_back("CARRIED");
+    const Neighborhood neighborhood = look();
+    const Queries queries = ask();
+    RadiusSettings radius{rank_for(m_settings.neighbors)};
+    radius.carry = m_carry;
+    const bool carries = m_settings.search == RadiusSearch::carried;
+    radius.is_carried = carries && m_step > 0; // the first step seeks its radii
+    find_radii(m_device, neighborhood, queries, radius, m_radii, STAGE, progress);
     const bool is_constrained = m_settings.constraint.descriptor != Descriptor::none;
+    GatherKernel kernel{"relax/repel_photons.comp",
+                        {},
+                        {{"constraint_along", is_constrained ? m_constraint.along : m_moves},
+                         {"constraint_across", is_constrained ? m_constraint.across : m_moves},
+                         {"radii", m_radii},
+                         {"moves", m_moves}}};
+    if (carries)
+        kernel.defines.emplace_back("CARRIED");
     if (is_constrained)
-        defines.emplace_back("CONSTRAINED");
-    const gpu::Buffer& unused = m_moves;
-    const GatherDispatch dispatch = [&](gpu::Commands& commands, const gpu::KernelSource& kernel,
-                                        const shared::GatherSettings& chunk, const GatherBuffers& buffers,
-                                        std::uint64_t invocations) {
-        push.gather = chunk;
-        commands.dispatch(kernel,
-                          {{"tree_nodes", m_tree.nodes},
-                           {"tree_positions", m_tree.positions},
-                           {"tree_normals", m_tree.normals},
-                           {"tree_parameters", m_layers.parameters.is_empty() ? m_tree.positions : m_layers.parameters},
-                           {"tree_ranges", m_layers.ranges ? *m_layers.ranges : m_tree.positions},
-                           {"parameter_reach", m_layers.reach2.is_empty() ? m_radii : m_layers.reach2},
-                           {"parameter_periods", m_layers.periods.is_empty() ? m_radii : m_layers.periods},
-                           {"constraint_along", is_constrained ? m_constraint.along : unused},
-                           {"constraint_across", is_constrained ? m_constraint.across : unused},
-                           {"radii", m_radii},
-                           {"moves", m_moves},
-                           {"singles", buffers.singles},
-                           {"unanswered", buffers.unanswered}},
-                          push, invocations);
-    };
-    const char* kernel = "relax/repel_photons.comp";
+        kernel.defines.emplace_back("CONSTRAINED");
+    const shared::RepelSettings push{make_gather_settings(neighborhood, radius.rank), tau, limiter, m_spacing, 0};
+    gather(m_device, neighborhood, queries, kernel, push, STAGE, progress);
     m_carry = 1.0f;
-    const shared::GatherSettings gather = push.gather;
-    if (try_gather(m_device, m_tree, kernel, defines, gather, STAGE, dispatch, progress))
-        return;
-    // Photons that flew far stretch the boxes they stand in: the tree is built anew about where they are now.
-    reorder(progress);
-    std::erase_if(defines, [](const std::string& define) { return define.starts_with("TREE_RANGES"); });
-    run_gather(m_device, m_tree, kernel, defines, gather, STAGE, dispatch, progress);
 }
 
-// Builds the tree anew and brings all that is kept in its order along.
-void Relaxation::reorder(const Progress& progress) {
+// Photons that went far stretch the boxes they stand in: the tree is built anew about where they are now, and all that
+// is kept in its order brought along.
+void Relaxation::rebuild_tree(const Progress& progress) {
     const std::uint64_t count = m_photons.count;
-    PhotonMap present;
+    const std::vector<glm::vec4> before = m_tree.positions.read<glm::vec4>(count);
+    PhotonMap present; // ids are places in the old tree
     present.count = count;
-    present.position_emitter = gpu::make_buffer(m_device, m_tree.positions.read<glm::vec4>(count), "photon positions");
+    present.position_emitter = gpu::make_buffer(m_device, before, "photon positions");
     present.normal_index = gpu::make_buffer(m_device, m_tree.normals.read<glm::vec4>(count), "photon normals");
-    const std::vector<glm::vec4> old = m_tree.positions.read<glm::vec4>(count);
-    KdTree tree = build_tree(m_device, present, progress);
-    std::vector<glm::vec4> positions = tree.positions.read<glm::vec4>(count);
-    std::vector<std::uint32_t> from(count); // the old place of each photon
-    for (std::size_t at = 0; at < count; ++at) {
-        from[at] = std::bit_cast<std::uint32_t>(positions[at].w);
-        positions[at].w = old[from[at]].w;
+    KdTree tree;
+    if (m_parameters) {
+        const RangeRows rows{m_parameters->rows.axis_count, std::move(m_tree.rows)};
+        tree = build_tree(m_device, present, rows, TreeAxes::both, progress);
+    } else {
+        tree = build_tree(m_device, present, progress);
     }
+    std::vector<glm::vec4> positions = tree.positions.read<glm::vec4>(count);
+    for (glm::vec4& position : positions)
+        position.w = before[std::bit_cast<std::uint32_t>(position.w)].w;
     tree.positions.upload(positions.data(), count * sizeof(glm::vec4));
-    const auto bring = [&]<class T>(gpu::Buffer& buffer, std::size_t width, T) {
-        if (buffer.is_empty())
-            return;
-        const std::vector<T> rows = buffer.read<T>(count * width);
-        std::vector<T> brought(count * width);
-        for (std::size_t at = 0; at < count; ++at)
-            std::copy_n(&rows[from[at] * width], width, &brought[at * width]);
-        buffer.upload(brought.data(), brought.size() * sizeof(T));
-    };
-    bring(m_tree.normals, 1, glm::vec4());
-    std::swap(tree.normals, m_tree.normals);
     m_tree = std::move(tree);
-    for (gpu::Buffer* rows : {&m_start, &m_moves, &m_constraint.along, &m_constraint.across, &m_constraint.offsets,
-                              &m_constraint.member_radii, &m_power})
-        bring(*rows, 1, glm::vec4());
-    bring(m_radii, 1, float());
-    bring(m_triangles, 1, std::uint32_t());
-    bring(m_layers.reach2, 1, float());
-    m_layers.ranges = nullptr; // of the nodes there were
-    m_shape.range_axes.clear();
-    bring(m_layers.parameters, m_parameter_rows, glm::vec4());
+    bring_rows(before, m_tree,
+               {&m_start, &m_moves, &m_radii, &m_power, &m_constraint.along, &m_constraint.across,
+                &m_constraint.offsets, &m_constraint.member_radii});
+    bring_numbers(before, m_tree, {&m_triangles, &m_reach2});
+    m_travel = 0;
 }
 
 void Relaxation::move(const Progress& progress) {
@@ -247,15 +300,18 @@ StepReport Relaxation::step(const Progress& progress) {
     const float tau = find_tau(m_settings, m_step);
     double flux_drift = 0;
     if (m_photons.count > 0) {
+        if (m_travel > LONGEST_TRAVEL)
+            rebuild_tree(progress);
         repel(tau, progress);
         if (m_settings.diffuse_flux) // before the move: radii and places belong together
-            flux_drift = diffuse_flux(m_device, m_tree, m_shape, m_layers, m_radii, m_power, progress);
+            flux_drift = diffuse_flux(m_device, look(), ask(), m_radii, m_power, progress);
         if (m_surface.scene && m_triangles.is_empty()) // now that radii say how near a surface must be
             find_surface(progress);
         move(progress);
     }
     StepReport report = report_step(tau);
     report.flux_drift = flux_drift;
+    m_travel += report.largest_move;
     ++m_step;
     return report;
 }

@@ -5,7 +5,6 @@
 
 #include <optional>
 
-#include "photons/layered_tree.h"
 #include "relax/constraint.h"
 #include "relax/relaxed_state.h"
 #include "scene/scene_buffers.h"
@@ -37,22 +36,23 @@ struct RelaxedColumns {
     std::uint64_t off_surface_count = 0; // photons that moved in their tangent plane
 };
 
-// The trees that know parameters; without `layered` layers are sought in the tree over positions.
+// The trees that know parameters, where constraint or repulsion look at them.
 struct LayerTrees {
-    const ParameterTree* parameters = nullptr;
-    std::shared_ptr<const LayeredTree> layered; // kept as long as the relaxation
+    const ParameterTree* by_parameters = nullptr;
+    const ParameterTree* layered = nullptr;
 };
 
 class Relaxation {
 public:
     // Measures the constraint. Without a surface's scene photons move in their tangent planes.
-    // `trees` are needed where constraint or repulsion look at parameters.
     Relaxation(gpu::Device& device, const PhotonMap& photons, const KdTree& tree, const LayerTrees& trees,
                const RelaxSettings& settings, RelaxSurface surface, const Progress& progress);
 
     // One step (Jacobi: all photons see the places before it).
     StepReport step(const Progress& progress);
 
+    // What makes parameters useless here, with the cure.
+    const std::vector<std::string>& notes() const { return m_notes; }
     std::uint32_t step_count() const { return m_step; }
     const RelaxSettings& settings() const { return m_settings; }
     RelaxedColumns read() const;
@@ -61,9 +61,14 @@ private:
     void find_surface(const Progress& progress);
     void shift_photons();
     void order_power();
+    Neighborhood look() const;
+    Queries ask() const;
+    void constrain(const LayerTrees& trees, const Progress& progress);
+    void take_layers(const LayerTrees& trees, const Progress& progress);
+    void note_reaches(const ParameterTree& tree, const gpu::Buffer& reaches2, const char* of, float beta);
     void repel(float tau, const Progress& progress);
     void move(const Progress& progress);
-    void reorder(const Progress& progress);
+    void rebuild_tree(const Progress& progress);
     StepReport report_step(float tau);
     void read_state(RelaxedColumns& columns, const std::vector<glm::vec4>& order) const;
 
@@ -74,16 +79,17 @@ private:
     KdTree m_tree;       // of the photons where they are
     gpu::Buffer m_start; // where they were, tree order
     gpu::Buffer m_next;  // where a step puts them
-    gpu::Buffer m_radii; // squared, of the last query
+    gpu::Buffer m_radii; // of the last step (shaders/photons/search_radius.glsl)
     gpu::Buffer m_moves; // xyz metres, w pressure
     gpu::Buffer m_triangles;
-    std::shared_ptr<const LayeredTree> m_layered;
-    Layers m_layers; // of repulsion
-    std::uint32_t m_parameter_rows = 0;
-    GatherShape m_shape; // of repulsion
-    gpu::Buffer m_power; // rgb, tree order; with flux diffusion
+    std::string m_flat_axes;
+    std::shared_ptr<const ParameterRows> m_parameters; // with repulsion in layers
+    gpu::Buffer m_reach2;                              // the same, tree order
+    gpu::Buffer m_power;                               // rgb, tree order; with flux diffusion
     Constraint m_constraint;
     float m_carry = 0;               // share of the squared radii that the next query looks for
+    double m_travel = 0;             // farthest a photon can have moved since the tree was built, in radii
+    std::vector<std::string> m_notes;
     std::array<double, 3> m_shift{}; // of positions: the map's origin less the scene's
     float m_spacing = 0;
     std::uint32_t m_step = 0;

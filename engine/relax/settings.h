@@ -37,13 +37,6 @@ enum class RadiusSearch : std::uint32_t {
     carried, // the radius of the step before, corrected by the count found in it
 };
 
-// What neighbours of a layer are sought in.
-enum class LayerTree : std::uint32_t {
-    position,  // the tree over positions: nothing to build when parameters change
-    layered,   // one over positions and parameters
-    automatic, // layered where every step seeks in layers; else position, unless that reaches too much of the map
-};
-
 struct RelaxSettings {
     std::uint32_t steps = 20;
     std::uint32_t neighbors = 6;
@@ -52,7 +45,6 @@ struct RelaxSettings {
     Space repel = Space::world;
     float beta = 3.0f; // of repulsion in parameter space
     RadiusSearch search = RadiusSearch::exact;
-    LayerTree tree = LayerTree::layered;
     bool diffuse_flux = false;
     std::array<float, 3> period{}; // metres after which space repeats; 0: it does not
     ConstraintSettings constraint;

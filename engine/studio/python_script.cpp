@@ -74,7 +74,7 @@ std::string write_relax(const RelaxState& relax) {
            ", limit=" + (used.limit > 0 ? write(used.limit) : "None") +
            ",\n    constraint_neighbors=" + std::to_string(used.constraint_neighbors) +
            (used.thresholds[0] != used.thresholds[1] ? ", thresholds=" + write(used.thresholds) : "") +
-           ", search=" + quote(used.search) + ", surface=" + quote(used.surface) + ", tree=" + quote(used.tree) +
+           ", search=" + quote(used.search) + ", surface=" + quote(used.surface) +
            ", diffuse_flux=" + write(used.diffuse_flux) + ",\n)\nfor _ in range(" + std::to_string(relax.made) +
            "):\n    relaxation.step()\nrelaxed = relaxation.photons\n";
 }

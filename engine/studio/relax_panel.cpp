@@ -95,13 +95,6 @@ void draw_choices(Workspace& workspace) {
                                    "Photons return to the surface they lie on, or move in their tangent planes");
     if (surface >= 0)
         edit(workspace, "surface", [&](RelaxChoices& state) { state.surface = surface == 0 ? "auto" : "tangent"; });
-    ImGui::SameLine(0.5f * ImGui::GetContentRegionAvail().x);
-    const int tree = ui::choose(workspace, "Relaxation/Tree", "tree", now.tree, {"auto", "layered", "position"},
-                                "What neighbors of a layer are sought in");
-    if (tree >= 0)
-        edit(workspace, "tree", [&](RelaxChoices& state) {
-            state.tree = tree == 0 ? "auto" : tree == 1 ? "layered" : "position";
-        });
     std::array<float, 2> thresholds = now.thresholds;
     if (ImGui::InputFloat2("thresholds", thresholds.data(), "%.3g"))
         edit(workspace, "thresholds", [&](RelaxChoices& state) {

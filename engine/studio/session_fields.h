@@ -119,7 +119,6 @@ void visit(Archive& archive, RelaxChoices& relax) {
     archive.array("thresholds", relax.thresholds, LARGEST);
     archive.choice("search", relax.search, {"exact", "carried"});
     archive.choice("surface", relax.surface, {"auto", "tangent"});
-    archive.choice("tree", relax.tree, {"auto", "layered", "position"});
     archive.flag("diffuse_flux", relax.diffuse_flux);
 }
 

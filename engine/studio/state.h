@@ -118,7 +118,6 @@ struct RelaxChoices {
     std::array<float, 2> thresholds{}; // free at, fixed at; equal: the descriptor's own
     std::string search = "exact";
     std::string surface = "auto";
-    std::string tree = "auto";
     bool diffuse_flux = false;
     bool operator==(const RelaxChoices&) const = default;
 };

@@ -35,7 +35,6 @@ Settings describe_relax(const RelaxChoices& relax, bool has_parameters) {
             {"thresholds", relax.thresholds[0] != relax.thresholds[1] ? Settings(relax.thresholds) : Settings(nullptr)},
             {"search", relax.search},
             {"surface", relax.surface},
-            {"tree", relax.tree},
             {"diffuse_flux", relax.diffuse_flux}};
 }
 

@@ -241,11 +241,6 @@ class PhotonStages(PhotonColumns):
             (faster; its error is in docs/relaxation.md).
         surface
             ``"auto"``: photons return to the surface they lie on; ``"tangent"``: they move in their tangent planes.
-        tree
-            What neighbors of a layer are sought in: ``"layered"``, a tree over positions and parameters, or
-            ``"position"``, which needs no building when parameters change; ``"auto"`` takes the former for
-            ``repel="parameter"``, and where layers lie too scattered for the latter. The results are the same but for
-            the last bits.
         progress
             True for a bar, or a callback ``(stage, fraction)`` that returns False to stop.
 

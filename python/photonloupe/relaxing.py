@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import logging
 import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, TypedDict, Unpack
@@ -19,11 +20,12 @@ from photonloupe.progress import ProgressLike, follow_progress
 if TYPE_CHECKING:
     from photonloupe.photons import PhotonMap
 
+LOG = logging.getLogger("photonloupe")
+
 SPACES = ("world", "parameter")
 DESCRIPTORS = ("none", "gradient", "pca", "tensor", "split")
 SEARCHES = ("exact", "carried")
 SURFACES = ("auto", "tangent")
-TREES = ("auto", "layered", "position")
 
 MAX_STEPS = 10_000
 MAX_NEIGHBORS = 998  # the one after them gives the radius, and the photon itself counts: 1000 in all
@@ -81,7 +83,6 @@ class RelaxKeywords(TypedDict, total=False):
     diffuse_flux: bool
     search: str
     surface: str
-    tree: str
     period: Sequence[float] | None
 
 
@@ -109,7 +110,6 @@ def check_settings(
     diffuse_flux: bool = False,
     search: str = "exact",
     surface: str = "auto",
-    tree: str = "auto",
     period: Sequence[float] | None = None,
 ) -> dict[str, Any]:
     """Check all of a relaxation's settings and fill in those that nothing was said of; see `PhotonMap.relax`."""
@@ -147,7 +147,6 @@ def check_settings(
         "diffuse_flux": bool(diffuse_flux),
         "search": check_choice("search", search, SEARCHES),
         "surface": check_choice("surface", surface, SURFACES),
-        "tree": check_choice("tree", tree, TREES),
         "period": _check_period(period),
     }
 
@@ -242,6 +241,8 @@ class Relaxation:
             self._native = _engine.start_relaxation(
                 self._device._native, photons.upload(), native_scene, native_settings, callback
             )
+        for note in self.notes:
+            LOG.warning(note)
 
     def __repr__(self) -> str:
         told = self._settings
@@ -254,6 +255,11 @@ class Relaxation:
     def settings(self) -> dict[str, Any]:
         """All settings, those that nothing was said of filled in."""
         return dict(self._settings)
+
+    @property
+    def notes(self) -> list[str]:
+        """What makes the parameters useless here, with the cure; the relaxation goes on as in world space."""
+        return list(self._native.notes)
 
     @property
     def steps(self) -> int:
@@ -296,6 +302,7 @@ class Relaxation:
             "settings": dict(self._settings),
             "steps": [dict(row) for row in self._rows],
             "surface": "tangent planes" if self._scene is None else str(self._scene.path),
+            "notes": self.notes,
             "off_surface": int(len(self._source) if self._scene is None else off_surface),
         }
 

@@ -1,107 +1,60 @@
 // SPDX-License-Identifier: Apache-2.0
 // Irradiance in W/m² from the k nearest photons on the same surface (METHODS §2); w: what photons that each carry
-// 1 W would give. A photon counts within radius r when
-// n_i·n > 0.7, d_i ≤ r and |n·(x_i - x)| ≤ flatness·r: its measure is the smallest such r, squared.
-// Inputs: the tree, tree_normals, power_object (by photon id), query_points, query_normals (a zero normal: no query),
-// query_order. Outputs: irradiance, unanswered (1: the turns did not suffice).
-// Define KERNEL.
+// 1 W would give. Inputs: the tree, the queries (a zero normal: no query), radii (r from the photon behind the k-th; disc:
+// from the k-th), power_object (by photon id). Outputs: irradiance, unanswered. Define KERNEL (shared/photons.h).
 #include "shared/prelude.glsl"
 #include "estimate/density.glsl"
-#include "photons/same_surface.glsl"
+#include "photons/candidates.glsl"
 
-struct Query {
-    vec3 point;
-    vec3 normal;
-};
+vec4 flux_sum;
+float candidate_weight;
+uint tile_photon;
+vec3 tile_power;
+float radius2;
+#define EACH_SUM(DO) DO(flux_sum.x) DO(flux_sum.y) DO(flux_sum.z) DO(flux_sum.w)
+#pragma binding texel power_object
 
-struct Candidate {
-    vec3 point;
-    vec3 normal;
-    uint id;
-};
+void accumulate(Candidate other, float weight) {
+    candidate_weight = weight > 0.0 ? weigh_photon(min(square_length(find_offset(other)) / radius2, 1.0)) : 0.0;
+}
 
-float measure_candidate(Query query, Candidate candidate);
-Candidate load_candidate(uint position);
-Candidate share_candidate(Candidate mine, uint lane);
-float measure_limit(Query query, float distance2);
+void load_payload(uint position) {
+    tile_power = power_object_at(floatBitsToUint(tree_positions_at(position).w)).rgb;
+}
 
-#include "photons/stream_nearest.glsl"
-#pragma binding texel tree_normals
-#pragma binding readonly vec4 power_object
-#pragma binding readonly vec4 query_points
-#pragma binding readonly vec4 query_normals
-#pragma binding readonly uint query_order
+void meet_payload(uint lane, float weight) {
+    vec3 power = share_vector(tile_power, lane);
+    flux_sum += candidate_weight > 0.0 ? vec4(power, 1.0) * candidate_weight : vec4(0.0);
+}
+
+#define HAS_PAYLOAD
+#include "photons/stream_members.glsl"
+#include "photons/take_turns.glsl"
+#pragma binding readonly vec4 radii
+#pragma binding readonly uint result_rows
 #pragma binding writeonly vec4 irradiance
-#pragma binding writeonly uint unanswered
 
-layout(push_constant) uniform Push { NeighborQuery settings; };
+layout(push_constant) uniform Push { GatherSettings settings; };
 
-// Lanes without a candidate read scratch that nobody wrote: by address no descriptor would stop them.
-Candidate load_candidate(uint position) {
-    position = min(position, settings.photon_count - 1u);
-    vec4 photon = tree_positions_at(position);
-    return Candidate(photon.xyz, tree_normals_at(position).xyz, floatBitsToUint(photon.w));
-}
-
-Candidate share_candidate(Candidate mine, uint lane) {
-    return Candidate(vec3(subgroupBroadcast(mine.point.x, lane), subgroupBroadcast(mine.point.y, lane),
-                          subgroupBroadcast(mine.point.z, lane)),
-                     vec3(subgroupBroadcast(mine.normal.x, lane), subgroupBroadcast(mine.normal.y, lane),
-                          subgroupBroadcast(mine.normal.z, lane)), subgroupBroadcast(mine.id, lane));
-}
-
-float measure_candidate(Query query, Candidate candidate) {
-    return measure_on_surface(candidate.point - query.point, query.normal, candidate.normal, settings.flatness);
-}
-
-float measure_limit(Query query, float distance2) {
-    return limit_measure(distance2, settings.flatness);
-}
-
-// Squared radius of the estimate: the (k + 1)-th photon's measure; the farthest's when there are no more.
-float find_radius2(uint wanted) {
-    float last = measure_candidate(my_query, load_candidate(find_photon(max(min(my_search.count, wanted), 1u) - 1u)));
-    bool is_short = my_search.count < wanted;
-    return is_short && KERNEL != 1 ? last * BEYOND_FARTHEST * BEYOND_FARTHEST : last;
-}
-
-vec4 sum_flux(uint used, float r2) {
-    vec4 sum = vec4(0.0);
-    for (uint rank = 0u; rank < settings.k; ++rank) {
-        bool valid = rank < used;
-        Candidate photon = load_candidate(find_photon(valid ? rank : 0u));
-        vec3 d = photon.point - my_query.point;
-        vec4 power = vec4(power_object[photon.id].rgb, 1.0);
-        sum += valid ? power * weigh_photon(min(dot(d, d) / r2, 1.0)) : vec4(0.0);
-    }
-    return sum;
-}
-
-vec4 estimate(uint wanted) {
-    uint used = min(my_search.count, settings.k);
-    float r = max(sqrt(find_radius2(wanted)), find_spacing(my_query.point));
-    vec4 flux = sum_flux(used, r * r);
-    if (KERNEL == 1) flux *= float(max(used, 1u) - 1u) / float(max(used, 1u)); // disc: (k - 1)/k is unbiased
-    return used > 0u ? spread_flux(flux, r) : vec4(0.0);
+// r: that of a set that takes every photon lies a little beyond the farthest.
+float find_support(vec4 radius) {
+    bool is_short = radius.w < float(settings.rank) && KERNEL != 1;
+    return max(sqrt(radius.x) * (is_short ? BEYOND_FARTHEST : 1.0), find_spacing(my_place));
 }
 
 void main() {
-    uint wanted = KERNEL == 1 ? settings.k : settings.k + 1u;
-    float guess2 = settings.guess2;
-    uint first = gl_WorkGroupID.x * WIDTH * settings.batches;
-    for (uint batch = 0u; batch < settings.batches; ++batch) {
-        uint turn = first + batch * WIDTH + LANE;
-        uint query = query_order[settings.first + min(turn, settings.count - 1u)];
-        my_query = Query(query_points[query].xyz, query_normals[query].xyz);
-        bool has_query = turn < settings.count && my_query.normal != vec3(0.0);
-        find_smallest(has_query, settings.photon_count, settings.leaf_level, wanted, guess2);
-        turns += settings.k + 1u;
-        vec4 found = estimate(wanted);
-        if (turn < settings.count) {
-            irradiance[query] = has_query ? found : vec4(0.0);
-            unanswered[query] = uint(has_query && !has_turns_left());
-        }
-        float reached = my_search.count >= wanted ? find_radius2(wanted) : 0.0;
-        guess2 = reached > 0.0 ? reached * GUESS_SLACK : settings.guess2;
+    for (uint batch = 0u; batch < BATCH_COUNT(settings); ++batch) {
+        uint query;
+        bool has_query = take_turn(settings, batch, query);
+        take_query(query, settings.period, settings.flatness);
+        vec4 radius = radii[query];
+        float r = find_support(radius);
+        radius2 = r * r;
+        flux_sum = vec4(0.0);
+        bool is_met = stream_members(settings, has_query && radius.w > 0.0, radius);
+        float found = max(radius.w, 1.0);
+        if (KERNEL == 1) flux_sum *= (found - 1.0) / found; // disc: (k - 1)/k is unbiased
+        if (has_query && is_met) irradiance[result_rows[query]] = radius.w > 0.0 ? spread_flux(flux_sum, r) : vec4(0.0);
+        report_turn(settings, has_query, is_met, query);
     }
 }

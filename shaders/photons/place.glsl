@@ -61,11 +61,6 @@ void set_period(vec4 space_period) {
 #endif
 }
 
-// Where boxes and photons add their squares in different orders, boxes are held for a little nearer (define it).
-#ifndef BOX_ROUNDING
-#define BOX_ROUNDING 1.0
-#endif
-
 Place share_place(Place p, uint lane) {
 #define SHARE(a) p.a = subgroupBroadcast(p.a, lane);
     EACH_AXIS(SHARE)
@@ -82,32 +77,4 @@ float measure_box_gap(Place lo, Place hi, Place other_lo, Place other_hi) {
     gap = max(min(gap, min(before, after)) - period * WRAP_ROUNDING, Place(0.0));
 #endif
     return square_length(gap);
-}
-
-float measure_gap(Place lo, Place hi, uint node) {
-    return measure_box_gap(lo, hi, take_place(tree_nodes_at(2u * node)), take_place(tree_nodes_at(2u * node + 1u)));
-}
-
-// Shares of a box's longest side below which it counts as a line.
-const float LINE_SHARE = 0.02;
-
-// Squared radius that holds `k` neighbours if a leaf's photons lie evenly over its box or along it.
-float guess_radius2(uint photon_count, uint leaf_level, uint position, uint k) {
-    float share = float(position) / float(photon_count); // exact enough for a guess
-    uint leaf = min(uint(share * float(1u << leaf_level)), (1u << leaf_level) - 1u);
-    uint photons = find_first_position(photon_count, leaf + 1u, leaf_level) -
-                   find_first_position(photon_count, leaf, leaf_level);
-    uint node = (1u << leaf_level) + leaf;
-    Place extent = take_place(tree_nodes_at(2u * node + 1u)) - take_place(tree_nodes_at(2u * node));
-#ifdef FLAT_AXES
-    float longest = max(extent.x, extent.y);
-    float middle = min(extent.x, extent.y);
-#else
-    float longest = max(extent.x, max(extent.y, extent.z));
-    float shortest = min(extent.x, min(extent.y, extent.z));
-    float middle = extent.x + extent.y + extent.z - longest - shortest;
-#endif
-    float each = float(k + 1u) / float(photons);
-    float along = 0.5 * longest * each;
-    return middle > LINE_SHARE * longest ? longest * middle * each / PI : along * along;
 }

@@ -9,7 +9,7 @@
 #pragma binding readonly vec4 tree_positions
 #pragma binding readonly vec4 tree_normals
 #pragma binding readonly vec4 power_object
-#pragma binding readonly float radii
+#pragma binding readonly vec4 radii
 #pragma binding writeonly uint photon_triangles
 
 layout(push_constant) uniform Push { MoveSettings settings; };
@@ -25,7 +25,7 @@ void main() {
     vec3 normal = tree_normals[position].xyz;
     uint object = floatBitsToUint(power_object[floatBitsToUint(photon.w)].w);
     vec3 size = abs(photon.xyz);
-    float reach = max(SURFACE_SHARE * sqrt(radii[position]), ROUNDING * max(size.x, max(size.y, size.z)));
+    float reach = max(SURFACE_SHARE * sqrt(radii[position].x), ROUNDING * max(size.x, max(size.y, size.z)));
     Closest front = Closest(reach * reach, NO_TRIANGLE, photon.xyz, vec3(0.0), false);
     find_closest(valid, Sought(photon.xyz, normal, 0.0, object), front);
     Closest back = Closest(front.distance2, NO_TRIANGLE, photon.xyz, vec3(0.0), false);

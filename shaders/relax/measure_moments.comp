@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Moments of each photon's neighbours in its tangent plane: gradient and one-sidedness (METHODS §5.1), and the
 // descriptors that need no more (§5.2 pca; `gradient`: one-sidedness alone).
-// Inputs: the tree, tree_normals, parameters where they decide, radii (guesses). Outputs, tree order: offsets
-// (xyz g = m/r, w neighbours K'), member_radii (x r², y weight of photons at just r, z one-sidedness, w axis ratio t),
-// constraint_along (u_b, w_u), constraint_across (v_b, w_v), radii, unanswered.
+// Inputs: the tree, radii. Outputs, tree order: offsets (xyz g = m/r, w neighbours K'), member_radii (x r², y weight of
+// photons at just r, z one-sidedness, w axis ratio t), constraint_along (u_b, w_u), constraint_across (v_b, w_v),
+// unanswered.
 // Define DESCRIPTOR (shared/relax.h).
 #include "shared/prelude.glsl"
 #include "shared/relax.h"
@@ -13,10 +13,7 @@
 vec2 offset_sum;
 vec3 square_sum; // xx, xy, yy
 
-void clear_sums() {
-    offset_sum = vec2(0.0);
-    square_sum = vec3(0.0);
-}
+#define EACH_SUM(DO) DO(offset_sum.x) DO(offset_sum.y) DO(square_sum.x) DO(square_sum.y) DO(square_sum.z)
 
 void accumulate(Candidate other, float weight) {
     vec2 e = project_offset(find_offset(other));
@@ -25,10 +22,10 @@ void accumulate(Candidate other, float weight) {
     square_sum += vec3(w.x * e.x, w.x * e.y, w.y * e.y);
 }
 
-#include "photons/gather.glsl"
-#include "photons/each_photon.glsl"
+#include "photons/stream_members.glsl"
+#include "photons/take_turns.glsl"
 #include "relax/write_constraint.glsl"
-#pragma binding coherent float radii
+#pragma binding readonly vec4 radii
 #pragma binding writeonly vec4 offsets
 #pragma binding writeonly vec4 member_radii
 
@@ -40,9 +37,9 @@ const float HALF_DISC_OFFSET = 0.4244;
 const float EDGE_FREE = 0.35;
 const float EDGE_FIXED = 0.8;
 
-void describe_photon(uint position) {
-    float members = my_gathered.others > 0u ? my_gathered.members : 0.0;
-    float r2 = my_gathered.r2 * (my_gathered.others == 1u ? 4.0 : 1.0); // of two photons r is twice their distance
+void describe_photon(uint position, vec4 radius) {
+    float members = radius.w > 0.0 ? radius.z : 0.0;
+    float r2 = radius.x * (radius.w == 1.0 ? 4.0 : 1.0); // of two photons r is twice their distance
     float r = sqrt(r2);
     bool has_extent = r > 0.0 && members > 0.0;
     // In units of r, so that squares of tiny scenes do not underflow.
@@ -52,7 +49,7 @@ void describe_photon(uint position) {
     Eigen e = decompose(squares.x - mean.x * mean.x, squares.y - mean.x * mean.y, squares.z - mean.y * mean.y);
     float ratio = e.first > 0.0 ? sqrt(e.second / e.first) : 1.0;
     offsets[position] = vec4(lift_tangent(mean), members);
-    member_radii[position] = vec4(r2, my_gathered.tie_weight, one_sidedness, ratio);
+    member_radii[position] = vec4(r2, radius.y, one_sidedness, ratio);
 #if DESCRIPTOR == 1 || DESCRIPTOR == 2 // gradient, pca
 #if DESCRIPTOR == 1
     float edge = ramp(one_sidedness, settings.free_at, settings.fixed_at);
@@ -69,16 +66,13 @@ void main() {
     for (uint batch = 0u; batch < BATCH_COUNT(settings.gather); ++batch) {
         uint position;
         bool has_photon = take_turn(settings.gather, batch, position);
-        take_photon(position, settings.gather.period, settings.gather.flatness);
+        take_query(position, settings.gather.period, settings.gather.flatness);
         set_tangents();
-        float guess2 = radii[position] * settings.gather.carry;
-        if (guess2 <= 0.0)
-            guess2 = guess_radius2(settings.gather.photon_count, settings.gather.leaf_level, position, settings.gather.k);
-        gather_members(has_photon, settings.gather.photon_count, settings.gather.leaf_level, settings.gather.k, guess2);
-        if (has_photon) {
-            describe_photon(position);
-            radii[position] = my_gathered.r2;
-        }
-        report_turn(settings.gather, has_photon, has_turns_left(), position);
+        vec4 radius = radii[position];
+        offset_sum = vec2(0.0);
+        square_sum = vec3(0.0);
+        bool is_met = stream_members(settings.gather, has_photon && radius.x > 0.0, radius);
+        if (has_photon && is_met) describe_photon(position, radius);
+        report_turn(settings.gather, has_photon, is_met, position);
     }
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The `split` descriptor (METHODS §5.4, after [SJ09]): along the mean offset δ the neighbours' signed distances ψ are
 // sorted, with -r and r at the ends; the gap that leaves the evenest gaps on both its sides is where an edge may be.
-// A subgroup takes one photon at a time. Inputs: the tree, tree_normals, parameters where they decide, offsets and
-// member_radii of relax/measure_moments.comp. Outputs: constraint_along, constraint_across, unanswered.
+// A subgroup takes one photon at a time. Inputs: the tree, offsets and member_radii of relax/measure_moments.comp, with
+// SINGLY singles. Outputs: constraint_along, constraint_across, unanswered (a flag a photon, or a single one, set
+// beforehand). In and out, with SINGLY: saved_lists, where a photon's turns did not suffice.
 #include "shared/prelude.glsl"
 #include "shared/relax.h"
 #include "relax/tangent_plane.glsl"
@@ -10,11 +11,14 @@
 #include "relax/write_constraint.glsl"
 #pragma binding readonly vec4 offsets
 #pragma binding readonly vec4 member_radii
-#pragma binding writeonly uint unanswered // a flag for each photon, set beforehand
+#pragma binding writeonly uint unanswered
+#pragma binding readonly uvec2 singles
+#pragma binding coherent uint saved_lists
 
 layout(push_constant) uniform Push { DescribeSettings settings; };
 
 const uint LIST_SIZE = 1024u; // a power of two above the 998 neighbours and both ends
+const uint SORT_TURNS = 10000u; // of the longest list and what follows
 const uint FEWEST_GAPS = 8u;  // on each side, or their evenness says nothing
 
 shared float signed_distances[LIST_SIZE];
@@ -26,6 +30,8 @@ void synchronize() {
 
 vec2 my_direction;
 float my_r2;
+uint my_position;
+uint my_slot; // with SINGLY
 uint listed;
 
 // Each lane looks at its own photon of the tile; those at just the radius are as good as the end there.
@@ -33,7 +39,7 @@ void list_tile(uint next, uint end) {
     uint position = next + LANE;
     Candidate other = load_candidate(min(position, settings.gather.photon_count - 1u), position < end);
     Place d = find_offset(other);
-    bool is_self = position == settings.gather.first + gl_WorkGroupID.x;
+    bool is_self = position == my_position;
     bool is_member = measure_candidate(other) < my_r2 && !is_self;
     uvec4 ballot = subgroupBallot(is_member);
     uint at = min(listed + subgroupBallotExclusiveBitCount(ballot), LIST_SIZE - 1u);
@@ -122,21 +128,61 @@ float weigh_split(uint gap_count, float r) {
     return is_near ? ramp(homogeneity, settings.free_at, settings.fixed_at) : 0.0;
 }
 
-void list_neighbors(uint photon_count, uint leaf_level) {
+#ifdef SINGLY
+const uint SAVED_WORDS = 10u + LIST_SIZE; // engine/photons/gather.cpp
+
+bool resume_list() {
+    uint at = SAVED_WORDS * my_slot;
+    if (saved_lists[at] == 0u) return false;
+    walk = Walk(saved_lists[at + 1u], saved_lists[at + 2u], saved_lists[at + 3u], saved_lists[at + 4u],
+                uvec3(saved_lists[at + 5u], saved_lists[at + 6u], saved_lists[at + 7u]), saved_lists[at + 8u]);
+    listed = saved_lists[at + 9u];
+    turns += listed / WIDTH + 1u;
+    for (uint i = LANE; i < min(listed, LIST_SIZE); i += WIDTH)
+        signed_distances[i] = uintBitsToFloat(saved_lists[at + 10u + i]);
+    return true;
+}
+
+void save_list() {
+    uint at = SAVED_WORDS * my_slot;
+    uint words[10] = uint[10](1u, walk.step, walk.node, walk.last_step, walk.first_levels, walk.waiting.x, walk.waiting.y,
+                              walk.waiting.z, walk.leaves, listed);
+    for (uint i = 0u; i < 10u && LANE == 0u; ++i) saved_lists[at + i] = words[i];
+    synchronize();
+    for (uint i = LANE; i < min(listed, LIST_SIZE); i += WIDTH)
+        saved_lists[at + 10u + i] = floatBitsToUint(signed_distances[i]);
+}
+#else
+bool resume_list() { return false; }
+void save_list() {}
+#endif
+
+// False where the turns did not suffice.
+bool list_neighbors(uint photon_count, uint leaf_level) {
     listed = 0u;
     set_batch(true, my_r2);
-    start_walk(leaf_level);
+    if (!resume_list()) start_walk(leaf_level);
     do {
         list_leaves(photon_count, leaf_level);
         walk_on();
         ++turns;
-    } while (walk.leaves != 0u && has_turns_left());
+    } while (!is_walk_over() && has_turns_left());
+    if (!is_walk_over()) save_list();
+    return is_walk_over();
 }
 
 void main() {
-    uint position = settings.gather.first + gl_WorkGroupID.x;
+    uint at = settings.gather.first + gl_WorkGroupID.x;
     if (gl_WorkGroupID.x >= settings.gather.count) return;
-    take_photon(position, settings.gather.period, settings.gather.flatness);
+#ifdef SINGLY
+    uint position = singles[at].x;
+    my_slot = at = singles[at].y;
+#else
+    uint position = at;
+#endif
+    turn_limit = TURN_BUDGET - SORT_TURNS;
+    my_position = position;
+    take_query(position, settings.gather.period, settings.gather.flatness);
     set_tangents();
     vec4 own = offsets[position];
     vec2 mean = project_vector(own.xyz);
@@ -144,7 +190,7 @@ void main() {
     float r = sqrt(my_r2);
     float size = max(abs(mean.x), abs(mean.y));
     my_direction = size > 0.0 ? normalize(mean / size) : vec2(0.0);
-    list_neighbors(settings.gather.photon_count, settings.gather.leaf_level);
+    if (!list_neighbors(settings.gather.photon_count, settings.gather.leaf_level)) return;
     if (LANE == 0u) {
         signed_distances[min(listed, LIST_SIZE - 1u)] = -r;
         signed_distances[min(listed + 1u, LIST_SIZE - 1u)] = r;
@@ -156,6 +202,6 @@ void main() {
     if (size == 0.0 || r == 0.0) weight = 0.0;
     if (LANE == 0u) {
         write_constraint(position, own.w, mean, mean, weight);
-        if (has_turns_left()) unanswered[position] = 0u;
+        unanswered[at] = 0u;
     }
 }

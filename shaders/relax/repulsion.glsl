@@ -14,6 +14,12 @@ Place near_sum;
 Place far_sum;
 float coincident_sum; // photons at just this place, this one among them
 float member_sum;
+#ifdef FLAT_AXES
+#define EACH_SUM(DO) DO(near_sum.x) DO(near_sum.y) DO(far_sum.x) DO(far_sum.y) DO(coincident_sum) DO(member_sum)
+#else
+#define EACH_SUM(DO) DO(near_sum.x) DO(near_sum.y) DO(near_sum.z) DO(far_sum.x) DO(far_sum.y) DO(far_sum.z) \
+    DO(coincident_sum) DO(member_sum)
+#endif
 
 void clear_sums() {
     near_sum = Place(0.0);
@@ -38,7 +44,7 @@ void accumulate(Candidate other, float weight) {
 struct Reach {
     float r2;      // squared radius
     float members; // K'
-    uint others;   // photons the radius was found from
+    float others;  // photons the radius was found from
 };
 
 vec3 constrain_move(vec3 f, uint position) {
@@ -57,13 +63,12 @@ vec3 push_apart(uint position, Reach reach) {
     float s, c;
     sin_cos(2.0 * PI * to_unit_float(random_bits(0u, id, 0u, 0u)), s, c);
     set_tangents();
-    return coincident_sum > 1.0 || (coincident_sum > 0.0 && reach.r2 == 0.0)
-        ? settings.spacing * lift_tangent(vec2(c, s)) : vec3(0.0);
+    return coincident_sum > 1.0 ? settings.spacing * lift_tangent(vec2(c, s)) : vec3(0.0);
 }
 
 vec4 find_move(uint position, Reach reach) {
-    bool is_alone = reach.others == 0u;
-    float r = sqrt(reach.r2) * (reach.others == 1u ? 2.0 : 1.0);
+    bool is_alone = reach.others == 0.0;
+    float r = sqrt(reach.r2) * (reach.others == 1.0 ? 2.0 : 1.0);
     float span = r * settings.tau;
     vec3 f = vec3(0.0);
     if (r > 0.0) f = lift_place(near_sum * span - far_sum / span) / reach.members;

@@ -4,7 +4,7 @@
 #include "shared/prelude.glsl"
 #include "shared/relax.h"
 #pragma binding readonly vec4 moves
-#pragma binding readonly float radii
+#pragma binding readonly vec4 radii
 #pragma binding writeonly vec4 move_sums
 
 layout(push_constant) uniform Push { MoveSettings settings; };
@@ -16,7 +16,8 @@ void main() {
     for (uint i = run * SUM_RUN; i < min((run + 1u) * SUM_RUN, settings.photon_count); ++i) {
         vec4 move = moves[i];
         float size = sqrt(dot(move.xyz, move.xyz));
-        float share = radii[i] > 0.0 ? size / sqrt(radii[i]) : 0.0;
+        float r2 = radii[i].x;
+        float share = r2 > 0.0 ? size / sqrt(r2) : 0.0;
         sums = vec4(sums.x + share, max(sums.y, share), sums.z + move.w, sums.w + size);
     }
     move_sums[run] = sums;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tangent plane of the photon that gathers: coordinates of offsets in it, and directions back in space.
 #include "shared/math.glsl"
-#include "photons/world_candidates.glsl"
+#include "photons/candidates.glsl"
 
 #ifdef FLAT_AXES
 vec3 lift_place(Place p) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the photon-map kernels and the host exchange: tree layout, neighbour queries.
+// What the photon-map kernels and the host exchange: tree layout, searches, lists.
 #ifndef PHOTONLOUPE_SHARED_PHOTONS_H
 #define PHOTONLOUPE_SHARED_PHOTONS_H
 
@@ -40,39 +40,52 @@ struct TreeRefit {
     uint count;
 };
 
-struct NeighborQuery {
-    uint first;
-    uint count;
-    uint photon_count;
-    uint leaf_level;
-    uint k;
-    uint batches;      // queries each lane (each workgroup, when selecting) answers in turn
-    uint exclude_self; // the query's w holds the id of a photon that is not its own neighbour
-    float flatness;    // irradiance: largest height above the tangent plane, as a share of r; 0: no test
-    float guess2;      // squared radius that the first query of a workgroup tries
-    float limit2;      // parameter space: beyond every squared distance
-    uint pad0;
-    uint pad1;
-    vec4 period;       // of the tree's axes, 0: none; w unused
-};
-
-// Where neighbours are sought, and among whom.
-const uint SPACE_WORLD = 0u;
-const uint SPACE_PARAMETER = 1u;
-const uint SPACE_CONSTRAINED = 2u;
-const uint ANY_EMITTER = 0xffffffffu;
-
-// Photons of a map, a tile after the other in tree order, gather from each other (photons/gather.glsl).
+// Queries, a subgroup's width after the other, gather from the photons of a tree (photons/gather.h).
 struct GatherSettings {
     vec4 period; // xyz metres: space repeats, 0: it does not; w unused
-    uint first;  // tree position of the first photon of this dispatch …
+    uint first;  // the first query of this dispatch …
     uint count;  // … and how many there are
     uint photon_count;
     uint leaf_level;
-    uint k;         // neighbours; the next one gives the radius
-    uint batches;   // subgroups of photons a workgroup takes in turn
-    float flatness; // largest height above the tangent plane, as a share of r; 0: no test
-    float carry;    // the radii hold squared radii of this share of what is sought; 0: nothing
+    uint rank;          // of the photon that gives the radius, from 1, nearest first
+    uint batches;       // subgroups of queries a workgroup takes in turn
+    uint includes_last; // the photon of the rank is a member too
+    float flatness;     // largest height above the tangent plane, as a share of r; 0: no test
+    float carry;        // the radii hold squared radii of this share of what is sought; 0: nothing
+    uint pad0;
+    uint pad1;
+    uint pad2;
+};
+
+// What marks radii that were carried over from the step before (in w).
+const float CARRIED_RADIUS = -1.0f;
+
+// Members as lists: rows in scratch memory from query row_first on.
+struct ListSettings {
+    GatherSettings gather;
+    uint row_first;
+    uint pad0;
+    uint pad1;
+    uint pad2;
+};
+
+struct SortSettings {
+    uint first;
+    uint count;
+    uint row_first;
+    uint k;
+    uint room; // pairs from a row to the room behind
+    uint pad0;
+    uint pad1;
+    uint pad2;
+};
+
+// How far layers reach: β times the distance to the k-th neighbour in parameter space.
+struct ReachSettings {
+    uint first;
+    uint count;
+    uint k;
+    float beta;
 };
 
 // Kernels of density estimation (METHODS §2).

@@ -4,5 +4,6 @@
 
 const uint TURN_BUDGET = 60000u;
 uint turns = 0u;
+uint turn_limit = TURN_BUDGET; // of what is being done
 
-bool has_turns_left() { return turns < TURN_BUDGET; }
+bool has_turns_left() { return turns < turn_limit; }

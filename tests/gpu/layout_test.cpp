@@ -29,7 +29,7 @@ const std::map<std::string, HostStruct> HOST_STRUCTS{
     STRUCT(Triangle),         STRUCT(TriangleNormals), STRUCT(Material),        STRUCT(Light),
     STRUCT(BvhNode),          STRUCT(SceneHeader),     STRUCT(TraceSettings),   STRUCT(LightEmission),
     STRUCT(PathSummary),      STRUCT(BalanceSum),      STRUCT(TreeNode),        STRUCT(TreeBuild),
-    STRUCT(NeighborQuery),    STRUCT(CameraFrame),     STRUCT(EyeSettings),     STRUCT(FilmSettings),
+    STRUCT(ReachSettings),    STRUCT(ListSettings),    STRUCT(SortSettings),    STRUCT(CameraFrame),     STRUCT(EyeSettings),     STRUCT(FilmSettings),
     STRUCT(PlotSettings),     STRUCT(TreeRefit),       STRUCT(GatherSettings),  STRUCT(RepelSettings),
     STRUCT(DescribeSettings), STRUCT(MoveSettings),    STRUCT(CrossingJob),     STRUCT(CrossingSettings),
     STRUCT(CoverageSettings), STRUCT(BlendSettings),   STRUCT(PixelSettings),   STRUCT(SurfaceSettings),

@@ -65,12 +65,12 @@ TEST(Loupe, keeps_parameters_in_tree_order_until_they_change) {
     LoupeQuery query;
     query.space = LoupeSpace::constrained;
     look_through_loupe(bench, photons, query);
-    const Layers* kept = &bench.find_tree_layers(photons);
+    const ParameterTree* kept = &bench.find_layered_tree(photons);
     look_through_loupe(bench, photons, query);
-    EXPECT_EQ(&bench.find_tree_layers(photons), kept);
-    ASSERT_TRUE(photons.tree_layers);
+    EXPECT_EQ(&bench.find_layered_tree(photons), kept);
+    ASSERT_TRUE(photons.layered_tree);
     photons.forget_parameters();
-    EXPECT_FALSE(photons.tree_layers);
+    EXPECT_FALSE(photons.layered_tree);
 }
 
 TEST(Loupe, refuses_what_does_not_fit_the_map) {

@@ -1,21 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// The radius of each photon of a batch, one a lane: the measure of the candidate of rank K + 1. There is no list of k
-// neighbours: what lies below a bound is counted as it streams by, and the few above it that are nearest (the shell)
-// are kept in order in registers. A bound that was wrong is moved by what was counted; the radius is exact whatever
-// bound was tried first. On processors without branches a register is far cheaper than shared memory.
-// A photon meets itself at measure 0 and counts.
+// The radius of each query of a batch, one a lane: the measure of the candidate of a rank. There is no list of that
+// many: what lies below a bound is counted as it streams by, and the few above it that are nearest (the shell) are kept
+// in order in registers. A bound that was wrong is moved by what was counted; the radius is exact whatever bound was
+// tried first. On processors without branches a register is far cheaper than shared memory.
+// A photon that asks meets itself at measure 0 and counts.
 //
-// The kernel includes its candidates first (photons/world_candidates.glsl, photons/parameter_candidates.glsl): Place,
-// Candidate, my_place(), load_candidate, share_candidate, measure_candidate, measure_node_gap, measure_limit.
+// Radii are vec4s. As a rule: squared radius, weight of photons at just that radius (they share what is left of the
+// rank), members, photons found but for the query's own. With CUT_TIES every member counts whole: squared radius, what
+// break_tie() and the id of a photon at just that radius must lie below (bits), photons found.
+// Queries that this does not suit, such as where many photons tie or the turns do not suffice, are left to
+// photons/select_radius.comp.
 // Defines: SHELL_SIZE, and EACH_KEPT(DO), the calls DO(0) … DO(SHELL_SIZE - 1): what is not indexed by a constant
 // would lie in memory.
 #include "photons/visit_tiles.glsl"
+#include "photons/radii.glsl"
 
 // Of the shell, this share lies below the radius that was guessed.
 const float FIRST_FILL = 0.5;
-// Passes after which the bound is halved bit by bit: 32 of those always end.
+// Passes after which the bound is halved bit by bit, and after which the query is left to others.
 const uint PATIENCE = 6u;
-const uint LARGEST_PASS_COUNT = 64u;
+const uint LARGEST_PASS_COUNT = 14u;
 // Where nothing is known, the first radius tried, as a share of the largest.
 const float SMALLEST_SHARE = 1e-12;
 const float SMALLEST_MEASURE = 1e-37; // still a normal float
@@ -35,22 +39,16 @@ struct Search {
     uint nearer;                     // … with so many nearer
 };
 
-// What was found.
-struct Gathered {
-    float r2;         // squared radius
-    float members;    // K': neighbours counted
-    float tie_weight; // of photons at just the radius, who share what is left of the K
-    uint others;      // photons the radius was found from, up to K + 1
-};
-
 Search my_search;
-Gathered my_gathered;
+vec4 my_radius;
+bool is_settled; // it is the query's
 // The least measures above lo, ascending, as bits: of floats that are not negative these are in the same order, and
 // whole numbers have a least and a greatest without a second thought for NaN.
 uint shell[SHELL_SIZE];
 const uint NO_MEASURE = 0x7f800000u;
 bool is_cut_short;       // the lane gave the last pass up: its counts are too low
 uint map_size;           // photons
+bool includes_last;      // with CUT_TIES: the candidate of the rank is a member itself
 
 #define KEEP(i) { uint smaller = min(shell[i], rest); rest = max(shell[i], rest); shell[i] = smaller; }
 
@@ -79,9 +77,11 @@ void count_pass(bool searching, uint wanted, uint photon_count, uint leaf_level)
 #define CLEAR(i) shell[i] = NO_MEASURE;
     EACH_KEPT(CLEAR)
     bool accepts = searching;
-    // Photons that coincide are a crowd that no smaller reach gets rid of.
+    // Photons that tie are a crowd that no smaller reach gets rid of; of those at just the query's place enough will do.
+    bool seeks_coincident = hi <= 0.0 && !my_search.counts_ties;
     bool may_give_up = !my_search.counts_ties &&
                        floatBitsToUint(max(hi, 0.0)) > floatBitsToUint(max(my_search.below, 0.0)) + 1u;
+    uint crowd = seeks_coincident ? wanted - 1u : (may_give_up ? CROWD_FACTOR * wanted + CROWD_BASE : 0xffffffffu);
     is_cut_short = false;
     set_batch(searching, hi);
     start_walk(leaf_level);
@@ -94,8 +94,8 @@ void count_pass(bool searching, uint wanted, uint photon_count, uint leaf_level)
             count_leaves(photon_count, leaf_level);
             walk_on();
             ++turns;
-            is_crowded = may_give_up && accepts && my_search.hi_count > CROWD_FACTOR * wanted + CROWD_BASE;
-            goes_on = walk.leaves != 0u && has_turns_left();
+            is_crowded = accepts && my_search.hi_count > crowd;
+            goes_on = !is_walk_over() && has_turns_left();
         } while (goes_on && !subgroupAny(is_crowded));
         is_cut_short = is_cut_short || (is_crowded && goes_on);
         accepts = accepts && !is_crowded;
@@ -114,14 +114,25 @@ float pick_shell(uint rank) {
     return uintBitsToFloat(picked);
 }
 
-void settle_radius(float r2, uint rank, uint nearer, uint equal) {
-    // The photon itself stands among the nearer ones, or, where all coincide, among the equal.
-    float taken = float(nearer) - (r2 > 0.0 ? 1.0 : 0.0);
-    float sharing = float(equal) - (r2 > 0.0 ? 0.0 : 1.0);
-    float members = max(float(rank) - 2.0, 1.0); // the other of two gives the radius and is a member
-    my_gathered = Gathered(r2, members, sharing > 0.0 ? (members - taken) / sharing : 0.0, rank - 1u);
+#ifdef CUT_TIES
+const uint ALL_TIES = 0xffffffffu;
+
+// Photons at just the radius are all members or none, or the query is left to others.
+void settle_radius(float r2, uint rank, uint nearer, uint equal, bool is_short) {
+    bool takes_all = is_short || (includes_last && nearer + equal == rank);
+    bool takes_none = !is_short && !includes_last && nearer + 1u == rank;
+    uint cut = takes_all ? ALL_TIES : 0u;
+    my_radius = vec4(r2, uintBitsToFloat(cut), uintBitsToFloat(cut), float(rank));
+    is_settled = takes_all || takes_none;
     my_search.searching = false;
 }
+#else
+void settle_radius(float r2, uint rank, uint nearer, uint equal, bool is_short) {
+    my_radius = share_ties(r2, rank, nearer, equal);
+    is_settled = true;
+    my_search.searching = false;
+}
+#endif
 
 // Has the next pass count all that tie at a measure.
 void count_ties(float measure, uint nearer) {
@@ -133,15 +144,19 @@ void count_ties(float measure, uint nearer) {
 
 // Takes the radius from the shell if it is there. More photons than the shell holds may tie at it: then they are
 // counted in another pass, with the radius itself as the bound.
-void try_shell(uint rank) {
+void try_shell(uint rank, bool is_short) {
     float r2 = pick_shell(rank - my_search.lo_count);
     uint bits = floatBitsToUint(r2);
     uint nearer = my_search.lo_count, equal = 0u;
 #define RANK_KEPT(i) nearer += uint(shell[i] < bits); equal += uint(shell[i] == bits);
     EACH_KEPT(RANK_KEPT)
     bool may_overflow = shell[SHELL_SIZE - 1u] == bits;
+#ifdef CUT_TIES
+    equal = may_overflow ? ALL_TIES / 2u : equal;
+    may_overflow = false;
+#endif
     if (may_overflow) count_ties(r2, nearer);
-    else settle_radius(r2, rank, nearer, equal);
+    else settle_radius(r2, rank, nearer, equal, is_short);
 }
 
 // What a pass that missed has taught.
@@ -214,11 +229,15 @@ void choose_bounds(uint wanted, uint pass, float limit) {
 }
 
 // Looks at what a pass found, and takes the radius or prepares the next pass.
-void judge_pass(inout uint rank, uint pass, float limit) {
+void judge_pass(inout uint rank, inout bool is_short, uint pass, float limit) {
+    if (my_search.hi <= 0.0 && my_search.hi_count >= rank && !my_search.counts_ties) { // all at just its place
+        settle_radius(0.0, rank, 0u, my_search.hi_count, is_short);
+        return;
+    }
     if (my_search.counts_ties) {
         my_search.counts_ties = false;
         if (my_search.lo_count >= rank) {
-            settle_radius(my_search.lo, rank, my_search.nearer, my_search.lo_count - my_search.nearer);
+            settle_radius(my_search.lo, rank, my_search.nearer, my_search.lo_count - my_search.nearer, is_short);
         } else {
             my_search.below = my_search.lo;
             my_search.below_count = my_search.lo_count;
@@ -228,8 +247,15 @@ void judge_pass(inout uint rank, uint pass, float limit) {
     }
     if (!is_cut_short && my_search.hi >= limit && my_search.hi_count < rank) { // there are no more: the farthest's
         rank = my_search.hi_count;
+        is_short = true;
         my_search.below = -1.0;
         my_search.below_count = 0u;
+    }
+    if (rank == 0u) { // nobody may be found
+        my_radius = vec4(0.0);
+        is_settled = true;
+        my_search.searching = false;
+        return;
     }
     bool reaches = !is_cut_short && my_search.lo_count < rank && rank <= my_search.lo_count + SHELL_SIZE &&
                    pick_shell(rank - my_search.lo_count) <= my_search.hi;
@@ -237,7 +263,7 @@ void judge_pass(inout uint rank, uint pass, float limit) {
     bool is_full_of_ties = !is_cut_short && my_search.lo_count + SHELL_SIZE < rank && shell[0] == shell[SHELL_SIZE - 1u] &&
                            uintBitsToFloat(shell[0]) <= my_search.hi;
     if (reaches) {
-        try_shell(rank);
+        try_shell(rank, is_short);
     } else if (is_full_of_ties) {
         count_ties(uintBitsToFloat(shell[0]), my_search.lo_count);
     } else {
@@ -250,26 +276,29 @@ void judge_pass(inout uint rank, uint pass, float limit) {
     }
 }
 
-// Finds every lane's radius for `k` neighbours. `guess2` is a squared radius that may be right.
-// Without turns left at the end the result is not to be trusted.
-void find_radius(bool has_query, uint photon_count, uint leaf_level, uint k, float guess2) {
-    uint wanted = k + 2u; // the photon itself, k neighbours, and the one that gives the radius
-    float limit = measure_limit();
+// Finds the radius of every lane's query for a rank that counts from 1. `guess2` is a squared radius that may be right.
+void find_radius(bool has_query, GatherSettings gather, float guess2) {
+    uint wanted = gather.rank;
+    float limit = limit_reach();
     float share = FIRST_FILL * float(SHELL_SIZE) / float(wanted);
     // A shell that holds all needs no bound below.
     float lo = wanted <= SHELL_SIZE ? -1.0 : guess2 * (1.0 - share);
     float hi = min(guess2 * (1.0 + (wanted <= SHELL_SIZE ? 1.2 : clamp(share, 0.1, 0.4))), limit);
     my_search = Search(has_query, min(lo, hi), hi, -1.0, INFINITY, 0u, 0u, 0u, 0u, false, 0u);
-    my_gathered = Gathered(0.0, 1.0, 0.0, 0u);
-    map_size = photon_count;
+    my_radius = vec4(0.0);
+    is_settled = false;
+    map_size = gather.photon_count;
+    includes_last = gather.includes_last != 0u;
     uint rank = wanted; // fewer photons than wanted: the farthest's
+    bool is_short = false;
     uint pass = 0u; // of this lane
-    while (subgroupAny(my_search.searching && pass < LARGEST_PASS_COUNT) && has_turns_left()) {
-        bool takes_part = choose_part(my_search.searching, my_search.hi);
-        count_pass(takes_part, wanted, photon_count, leaf_level);
-        if (takes_part) judge_pass(rank, pass, limit);
+    bool goes_on = has_turns_left();
+    while (subgroupAny(my_search.searching && pass < LARGEST_PASS_COUNT) && goes_on) {
+        bool takes_part = choose_part(my_search.searching && pass < LARGEST_PASS_COUNT, my_search.hi);
+        count_pass(takes_part, wanted, gather.photon_count, gather.leaf_level);
+        goes_on = has_turns_left();
+        if (takes_part && goes_on) judge_pass(rank, is_short, pass, limit);
         pass += uint(takes_part);
         ++turns;
     }
-    if (my_search.searching) turns = TURN_BUDGET; // not found: as good as out of turns
 }

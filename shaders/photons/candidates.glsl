@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whom a query may find, and how far they count as being: the one place that says so. A query is a lane's own: a photon
+// of the map (define OWN_PHOTONS: query i stands at tree position i) or a point, with what it brings along.
+//
+// As a rule the measure is the squared distance in space. FLAT_AXES: all photons and queries lie in one plane and share
+// a normal. ON_SURFACE: only those of the same surface, by the radius that takes them in (METHODS §2). SAME_LAYER: only
+// those of the query's layer number and, if it is positive, within its reach in parameter space (METHODS §4).
+// IN_INTERVALS: only those whose rows lie between two others. IN_PARAMETER_SPACE: the measure is the squared distance
+// there, among those of the same layer number. BY_ID: candidates bring their id along. WITHOUT_SELF: a query does not find
+// the photon that it is.
+// Inputs: the tree (tree_nodes, tree_positions, tree_normals, normal_boxes; layers.glsl) and, by query, query_points
+// (xyz, w id bits of the photon itself), query_normals, query_rows, query_reach (squared), interval_rows (twice ROW_COUNT).
+#include "photons/place.glsl"
+#include "photons/same_surface.glsl"
+#pragma binding texel tree_normals
+#pragma binding texel normal_boxes
+#pragma binding texel query_points
+#pragma binding texel query_normals
+#pragma binding texel query_rows
+#pragma binding readonly float query_reach
+#pragma binding readonly vec4 interval_rows
+#ifdef ROW_COUNT
+#include "photons/layers.glsl"
+#endif
+
+struct Candidate {
+#ifndef IN_PARAMETER_SPACE
+    Place place;
+#endif
+#ifdef ON_SURFACE
+    vec3 normal;
+#endif
+#ifdef ROW_COUNT
+    Layer layer;
+#endif
+#ifdef BY_ID
+    uint id;
+#endif
+};
+
+// Where queries lie: those of a batch, or one alone.
+struct Bounds {
+    Place lo, hi;
+#ifdef ON_SURFACE
+    vec3 normal_lo, normal_hi;
+#endif
+#ifdef ROW_COUNT
+    Layer layer_lo, layer_hi;
+#endif
+    float reach2; // squared, in parameter space; of layers
+};
+
+Place my_place;
+vec3 my_normal;
+float my_flatness;
+float my_reach2;
+uint my_self;
+#ifdef ROW_COUNT
+Layer my_layer;
+#ifdef IN_INTERVALS
+Layer interval_lo;
+Layer interval_hi;
+#endif
+#endif
+
+Candidate load_candidate(uint position, bool valid) {
+    Candidate c;
+    vec4 photon = tree_positions_at(position);
+#ifndef IN_PARAMETER_SPACE
+    c.place = valid ? take_place(photon) : FAR_PLACE;
+#endif
+#ifdef ON_SURFACE
+    c.normal = tree_normals_at(position).xyz;
+#endif
+#ifdef ROW_COUNT
+    c.layer = load_layer(position);
+    c.layer.row[0].x = valid ? c.layer.row[0].x : NO_LAYER;
+#endif
+#ifdef BY_ID
+    c.id = floatBitsToUint(photon.w);
+#endif
+    return c;
+}
+
+vec3 share_vector(vec3 mine, uint lane) {
+    return vec3(subgroupBroadcast(mine.x, lane), subgroupBroadcast(mine.y, lane), subgroupBroadcast(mine.z, lane));
+}
+
+Candidate share_candidate(Candidate mine, uint lane) {
+    Candidate c;
+#ifndef IN_PARAMETER_SPACE
+    c.place = share_place(mine.place, lane);
+#endif
+#ifdef ON_SURFACE
+    c.normal = share_vector(mine.normal, lane);
+#endif
+#ifdef ROW_COUNT
+    c.layer = share_layer(mine.layer, lane);
+#endif
+#ifdef BY_ID
+    c.id = subgroupBroadcast(mine.id, lane);
+#endif
+    return c;
+}
+
+#ifndef IN_PARAMETER_SPACE
+// From the query to the other.
+Place find_offset(Candidate other) { return wrap_offset(other.place - my_place); }
+
+bool may_be_found(Candidate other) {
+    bool found = true;
+#ifdef PERIODIC
+    found = other.place.x < FAR_BOUND; // wrapped, a far place may be near
+#endif
+#ifdef IN_INTERVALS
+    found = found && is_between(other.layer, interval_lo, interval_hi);
+#elif defined(SAME_LAYER)
+    found = found && get_number(other.layer) == get_number(my_layer) &&
+            measure_parameters(my_layer, other.layer) <= my_reach2;
+#endif
+    return found;
+}
+#endif
+
+bool is_self(Candidate other) {
+#ifdef WITHOUT_SELF
+    return other.id == my_self;
+#else
+    return false;
+#endif
+}
+
+float measure_candidate(Candidate other) {
+#ifdef IN_PARAMETER_SPACE
+    float measure = measure_parameters(my_layer, other.layer);
+    bool found = get_number(my_layer) == NO_LAYER ? is_set(other.layer) : get_number(other.layer) == get_number(my_layer);
+    return found && !is_self(other) ? measure : INFINITY;
+#else
+    Place d = find_offset(other);
+#ifdef ON_SURFACE
+    float measure = measure_on_surface(d, my_normal, other.normal, my_flatness);
+#else
+    float measure = square_length(d);
+#endif
+    return may_be_found(other) && !is_self(other) ? measure : INFINITY;
+#endif
+}
+
+// What decides between photons of one measure before their ids do: on surfaces, where the height may be what counts,
+// the distance.
+uint break_tie(Candidate other) {
+#ifdef ON_SURFACE
+    return floatBitsToUint(square_length(find_offset(other)));
+#else
+    return 0u;
+#endif
+}
+
+// No photon of the node is nearer to a query within the bounds; INFINITY where none may be found.
+float bound_measure(Bounds from, uint node) {
+    float bound = 0.0;
+#ifdef IN_PARAMETER_SPACE
+    bound = measure_row_gap(from.layer_lo, from.layer_hi, node);
+#else
+    Place lo = take_place(tree_nodes_at(2u * node)), hi = take_place(tree_nodes_at(2u * node + 1u));
+    bound = measure_box_gap(from.lo, from.hi, lo, hi);
+#ifdef ON_SURFACE
+    vec3 normal_lo = normal_boxes_at(2u * node).xyz, normal_hi = normal_boxes_at(2u * node + 1u).xyz;
+#ifndef PERIODIC
+    bound = max(bound, bound_height2(from.normal_lo, from.normal_hi, lo - from.hi, hi - from.lo, my_flatness));
+#endif
+    bound = may_share_surface(from.normal_lo, from.normal_hi, normal_lo, normal_hi) ? bound : INFINITY;
+#endif
+#ifdef IN_INTERVALS
+    bound = may_be_between(interval_lo, interval_hi, node) ? bound : INFINITY;
+#elif defined(SAME_LAYER)
+    bound = measure_row_gap(from.layer_lo, from.layer_hi, node) <= from.reach2 ? bound : INFINITY;
+#endif
+#endif
+    return bound;
+}
+
+// The lane's own query alone.
+Bounds bound_mine() {
+    Bounds own;
+    own.lo = my_place;
+    own.hi = my_place;
+#ifdef ON_SURFACE
+    own.normal_lo = my_normal;
+    own.normal_hi = my_normal;
+#endif
+#ifdef ROW_COUNT
+    own.layer_lo = my_layer;
+    own.layer_hi = my_layer;
+#ifdef IN_PARAMETER_SPACE
+    if (get_number(my_layer) == NO_LAYER) own.layer_hi.row[0].x = INFINITY;
+#endif
+#endif
+    own.reach2 = my_reach2;
+    return own;
+}
+
+// Those of all lanes that count.
+Bounds join_bounds(Bounds own, bool counts) {
+    Bounds all;
+    all.lo = find_least(own.lo, counts);
+    all.hi = find_most(own.hi, counts);
+#define LEAST_OF(v) subgroupMin(counts ? v : INFINITY)
+#define MOST_OF(v) subgroupMax(counts ? v : -INFINITY)
+#ifdef ON_SURFACE
+    all.normal_lo = vec3(LEAST_OF(own.normal_lo.x), LEAST_OF(own.normal_lo.y), LEAST_OF(own.normal_lo.z));
+    all.normal_hi = vec3(MOST_OF(own.normal_hi.x), MOST_OF(own.normal_hi.y), MOST_OF(own.normal_hi.z));
+#endif
+#ifdef ROW_COUNT
+    all.layer_lo = own.layer_lo;
+    all.layer_hi = own.layer_hi;
+#define JOIN_AXIS(a) all.layer_lo.row[a / 4][a % 4] = LEAST_OF(own.layer_lo.row[a / 4][a % 4]); \
+    all.layer_hi.row[a / 4][a % 4] = MOST_OF(own.layer_hi.row[a / 4][a % 4]);
+    JOIN_AXIS(0)
+    EACH_PARAMETER(JOIN_AXIS)
+#endif
+    all.reach2 = MOST_OF(own.reach2);
+    return all;
+}
+
+// Squared extent, in the space of the measure.
+float measure_extent(Bounds bounds) {
+#ifdef IN_PARAMETER_SPACE
+    float sum = 0.0;
+#define ADD_EXTENT(a) { float e = bounds.layer_hi.row[a / 4][a % 4] - bounds.layer_lo.row[a / 4][a % 4]; sum += e * e; }
+    EACH_PARAMETER(ADD_EXTENT)
+    return sum;
+#else
+    return square_length(bounds.hi - bounds.lo);
+#endif
+}
+
+// Beyond this no candidate is.
+float limit_reach() {
+#ifdef IN_PARAMETER_SPACE
+    return limit_parameters(my_layer);
+#else
+    Place lo = take_place(tree_nodes_at(2u)), hi = take_place(tree_nodes_at(3u));
+    float far2 = square_length(max(abs(my_place - lo), abs(hi - my_place))) * 1.0001;
+#ifdef ON_SURFACE
+    return limit_measure(far2, my_flatness);
+#else
+    return far2;
+#endif
+#endif
+}
+
+// Whether the lane's query, once taken, can find anybody.
+bool can_find() {
+    bool can = true;
+#ifdef ON_SURFACE
+    can = my_normal != vec3(0.0);
+#endif
+#ifdef IN_PARAMETER_SPACE
+    can = get_number(my_layer) >= 0.0; // not unset
+#endif
+    return can;
+}
+
+// Takes query i as the lane's own.
+void take_query(uint i, vec4 space_period, float flatness) {
+    set_period(space_period);
+    vec4 point = query_points_at(i);
+    my_place = take_place(point);
+    my_self = floatBitsToUint(point.w);
+    my_flatness = flatness;
+    my_reach2 = 0.0;
+    my_normal = query_normals_at(i).xyz;
+#ifdef ROW_COUNT
+    load_row_periods();
+#define TAKE_ROW(r) my_layer.row[r] = query_rows_at(ROW_COUNT * i + uint(r));
+    EACH_ROW(TAKE_ROW)
+#ifdef SAME_LAYER
+    my_reach2 = query_reach[i];
+#endif
+#ifdef IN_INTERVALS
+#define TAKE_INTERVAL(r) interval_lo.row[r] = interval_rows[r]; interval_hi.row[r] = interval_rows[ROW_COUNT + r];
+    EACH_ROW(TAKE_INTERVAL)
+#endif
+#endif
+}

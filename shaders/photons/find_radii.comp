@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// The radius of each query's neighborhood: the measure of the candidate of gather.rank. Inputs: the tree and the queries
+// (photons/candidates.glsl). In and out: radii (photons/search_radius.glsl; in: squared radii of gather.carry of what is
+// sought, 0: none; with CARRIED those that were carried over stay). Outputs: unanswered.
+#include "shared/prelude.glsl"
+#include "photons/search_radius.glsl"
+#include "photons/guess_radius.glsl"
+#include "photons/take_turns.glsl"
+#pragma binding coherent vec4 radii
+
+layout(push_constant) uniform Push { GatherSettings settings; };
+
+#ifdef CARRIED
+bool is_carried(vec4 radius) { return radius.w == CARRIED_RADIUS && radius.x > 0.0; }
+#else
+bool is_carried(vec4 radius) { return false; }
+#endif
+
+void main() {
+    float before2 = 0.0; // of the batch before
+    for (uint batch = 0u; batch < settings.batches; ++batch) {
+        uint query;
+        bool has_query = take_turn(settings, batch, query);
+        take_query(query, settings.period, settings.flatness);
+        vec4 radius = radii[query];
+        bool seeks = has_query && can_find() && !is_carried(radius);
+        float guess2 = settings.carry > 0.0 ? radius.x * settings.carry : before2;
+        bool needs_guess = seeks && guess2 <= 0.0;
+        if (subgroupAny(needs_guess)) guess2 = needs_guess ? guess_radius2(settings, query) : guess2;
+        find_radius(seeks, settings, guess2);
+        if (has_query && !is_carried(radius)) radii[query] = my_radius;
+        report_turn(settings, has_query, is_settled || !seeks, query);
+#ifndef OWN_PHOTONS
+        before2 = is_settled ? my_radius.x : 0.0;
+#endif
+    }
+}

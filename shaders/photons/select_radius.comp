@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+// The radius of queries that photons/find_radii.comp leaves, one a subgroup: eight tree nodes are tested at once, those
+// nearest entered first, and photons within the bound gathered in a list that shrinks it. A query that spends its turns
+// goes on in the next dispatch where it stopped, so that whatever the photons are like it is answered.
+// Inputs: the tree, the queries, singles. Outputs: radii (see photons/search_radius.glsl; without CUT_TIES the weight
+// of photons at just the radius is left to photons/count_ties.comp), unanswered. In and out: saved_searches.
+#include "shared/prelude.glsl"
+#include "photons/tree_texels.glsl"
+#include "photons/candidates.glsl"
+#include "shared/turns.glsl"
+
+#define WIDTH gl_WorkGroupSize.x
+#define LANE gl_LocalInvocationID.x
+
+#include "photons/select_list.glsl"
+#pragma binding readonly uvec2 singles
+#pragma binding writeonly uint unanswered
+#pragma binding coherent vec4 radii
+#pragma binding coherent uint saved_searches
+
+layout(push_constant) uniform Push { GatherSettings settings; };
+
+const uint NO_BOUND = 0x7f800000u;
+
+shared uint stack_node[TREE_STACK_SIZE];
+shared float stack_bound[TREE_STACK_SIZE];
+
+// What is known of the query: the list's length, the last of the rank smallest, and the nodes that wait.
+struct Selection {
+    uint count;
+    uint depth;
+    uvec3 last; // x NO_BOUND: fewer than the rank were found
+};
+
+Selection selection;
+
+// Pushes those of the node's descendants, up to three levels down, that may hold something, farthest first.
+void push_descendants(Bounds own, uint node) {
+    uint level = find_level(node);
+    uint step = min(TREE_STEP_LEVELS, settings.leaf_level - level);
+    uint child = (node << step) + min(LANE, (1u << step) - 1u);
+    float bound = bound_measure(own, child);
+    bool reached = LANE < (1u << step) && floatBitsToUint(bound) <= selection.last.x && bound < INFINITY;
+    bound = reached ? bound : INFINITY;
+    uint nearer = 0u; // survivors in front of this one
+    for (uint other = 0u; other < TREE_FANOUT; ++other) {
+        float theirs = subgroupBroadcast(bound, other);
+        nearer += uint(theirs < bound || (theirs == bound && other < LANE));
+    }
+    uint count = subgroupBallotBitCount(subgroupBallot(reached));
+    if (reached) {
+        stack_node[selection.depth + count - 1u - nearer] = child;
+        stack_bound[selection.depth + count - 1u - nearer] = bound;
+    }
+    selection.depth += count;
+    synchronize();
+}
+
+// Appends a leaf's photons within the bound to the list.
+void list_leaf(uint leaf) {
+    uint j = leaf - (1u << settings.leaf_level);
+    uint end = find_first_position(settings.photon_count, j + 1u, settings.leaf_level);
+    for (uint base = find_first_position(settings.photon_count, j, settings.leaf_level); base < end; base += WIDTH) {
+        turns += 2u;
+        Candidate other = load_candidate(min(base + LANE, end - 1u), base + LANE < end);
+        uvec3 entry = uvec3(floatBitsToUint(measure_candidate(other)), break_tie(other), other.id);
+        bool found = entry.x < NO_BOUND && (selection.last.x == NO_BOUND || is_before(entry, selection.last));
+        uvec4 ballot = subgroupBallot(found);
+        if (found) list[selection.count + subgroupBallotExclusiveBitCount(ballot)] = entry;
+        selection.count += subgroupBallotBitCount(ballot);
+    }
+    synchronize();
+}
+
+// Drops what lies beyond the rank once enough has come in.
+void cut_selection() {
+    uint full = settings.rank + max(settings.rank / 4u, TREE_LEAF_PHOTONS / 2u);
+    if (selection.count < full && (selection.count < settings.rank || selection.last.x != NO_BOUND)) return;
+    selection.last = cut_list(selection.count, settings.rank);
+    selection.count = min(selection.count, settings.rank);
+}
+
+void search_tree() {
+    Bounds own = bound_mine();
+    while (selection.depth > 0u && has_turns_left()) {
+        --selection.depth;
+        turns += TREE_FANOUT + 3u;
+        uint node = stack_node[selection.depth];
+        float bound = stack_bound[selection.depth];
+        synchronize();
+        if (floatBitsToUint(bound) > selection.last.x) continue;
+        if (find_level(node) < settings.leaf_level) {
+            push_descendants(own, node);
+        } else {
+            list_leaf(node);
+            cut_selection();
+        }
+    }
+}
+
+// Words of a search: flag, count, depth, last, the stack and the list.
+uint my_slot;
+
+uint locate_save() { return my_slot * (6u + 2u * TREE_STACK_SIZE + 3u * LIST_CAPACITY); }
+
+void start_search() {
+    uint at = locate_save();
+    bool is_resumed = saved_searches[at] != 0u;
+    selection = Selection(0u, 1u, uvec3(NO_BOUND, 0xffffffffu, 0xffffffffu));
+    if (is_resumed)
+        selection = Selection(saved_searches[at + 1u], saved_searches[at + 2u],
+                              uvec3(saved_searches[at + 3u], saved_searches[at + 4u], saved_searches[at + 5u]));
+    if (LANE == 0u) {
+        stack_node[0] = 1u;
+        stack_bound[0] = 0.0;
+    }
+    synchronize();
+    at += 6u;
+    for (uint i = LANE; i < selection.depth && is_resumed; i += WIDTH) {
+        stack_node[i] = saved_searches[at + 2u * i];
+        stack_bound[i] = uintBitsToFloat(saved_searches[at + 2u * i + 1u]);
+    }
+    at += 2u * TREE_STACK_SIZE;
+    for (uint i = LANE; i < selection.count; i += WIDTH)
+        list[i] = uvec3(saved_searches[at + 3u * i], saved_searches[at + 3u * i + 1u], saved_searches[at + 3u * i + 2u]);
+    turns += (selection.depth + selection.count) / WIDTH + 2u;
+    synchronize();
+}
+
+void save_search() {
+    uint at = locate_save();
+    if (LANE == 0u) {
+        saved_searches[at] = 1u;
+        saved_searches[at + 1u] = selection.count;
+        saved_searches[at + 2u] = selection.depth;
+        saved_searches[at + 3u] = selection.last.x;
+        saved_searches[at + 4u] = selection.last.y;
+        saved_searches[at + 5u] = selection.last.z;
+    }
+    at += 6u;
+    for (uint i = LANE; i < selection.depth; i += WIDTH) {
+        saved_searches[at + 2u * i] = stack_node[i];
+        saved_searches[at + 2u * i + 1u] = floatBitsToUint(stack_bound[i]);
+    }
+    at += 2u * TREE_STACK_SIZE;
+    for (uint i = LANE; i < selection.count; i += WIDTH) {
+        saved_searches[at + 3u * i] = list[i].x;
+        saved_searches[at + 3u * i + 1u] = list[i].y;
+        saved_searches[at + 3u * i + 2u] = list[i].z;
+    }
+}
+
+void write_radius(uint query) {
+    uint found = min(selection.count, settings.rank);
+    uvec3 last = selection.count > 0u ? cut_list(selection.count, settings.rank) : uvec3(0u);
+    bool takes_all = found < settings.rank;
+    // All before this are members; where the last is one too, all up to it.
+    uvec2 cut = takes_all ? uvec2(0xffffffffu) : uvec2(last.y, last.z + settings.includes_last);
+#ifdef CUT_TIES
+    vec4 radius = vec4(uintBitsToFloat(last.x), uintBitsToFloat(cut.x), uintBitsToFloat(cut.y), float(found));
+#else
+    vec4 radius = vec4(uintBitsToFloat(last.x), 0.0, 0.0, float(max(found, 1u) - 1u));
+#endif
+    if (LANE == 0u) {
+        radii[query] = radius;
+        unanswered[my_slot] = 0u;
+    }
+}
+
+void main() {
+    uint query = singles[settings.first + gl_WorkGroupID.x].x;
+    my_slot = singles[settings.first + gl_WorkGroupID.x].y;
+    take_query(query, settings.period, settings.flatness);
+    start_search();
+    search_tree();
+    if (selection.depth == 0u) write_radius(query);
+    else save_search();
+}
