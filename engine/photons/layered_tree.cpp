@@ -143,7 +143,9 @@ LayeredTree build_layered_tree(gpu::Device& device, const PhotonMap& photons, co
     layered.ranges = gpu::make_buffer(device, nodes.ranges, "kd-tree ranges");
     tree.positions = gpu::make_buffer(device, positions, "kd-tree positions");
     tree.normals = gpu::Buffer(device, photons.count * sizeof(glm::vec4), "kd-tree normals");
-    order_normals(device, photons, tree, progress);
+    tree.normal_boxes = gpu::Buffer(device, nodes.boxes.size() * 2 * sizeof(glm::vec4), "kd-tree boxes of normals");
+    order_columns(device, photons, nullptr, tree, progress);
+    bound_tree(device, tree, STAGE, false);
     return layered;
 }
 
