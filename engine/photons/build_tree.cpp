@@ -240,6 +240,7 @@ private:
 
     // Tries again until the median of every node was among the keys that were set aside.
     void split_large_nodes(std::uint32_t level) {
+        m_batches->run(); // it may still use the buffers that are made anew
         const std::uint64_t nodes = 1ull << level;
         shared::TreeBuild push = make_push(level, 0, nodes);
         push.parts = static_cast<std::uint32_t>(count_parts(find_largest_node(m_tree.count, level)));
@@ -261,7 +262,6 @@ private:
                                         {"box_keys", m_box_keys}},
                                        push, groups * m_device.limits().subgroup_size);
         };
-        m_batches->run();
         do {
             gpu::Commands& commands = m_batches->add(static_cast<double>(m_tree.count));
             commands.fill(unsettled, 0);
