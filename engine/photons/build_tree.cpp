@@ -2,6 +2,7 @@
 // Builds the kd-tree on the device, a level after the other: large nodes by several subgroups each, then a subgroup a
 // node, then an invocation a node.
 #include <algorithm>
+#include <bit>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -17,7 +18,7 @@ constexpr const char* STAGE = "build tree";
 // Nodes of more photons are split by several subgroups.
 constexpr std::uint64_t LARGE_NODE_PHOTONS = 16384;
 // The largest nodes that an invocation sorts alone.
-constexpr std::uint32_t SMALL_NODE_PHOTONS = 64;
+constexpr std::uint32_t SMALL_NODE_PHOTONS = 128;
 // Photons, levels counted, of the first batch; later ones follow the device's pace.
 constexpr double FIRST_BATCH = 1 << 19, SMALLEST_BATCH = 1 << 16, LARGEST_BATCH = 1 << 28;
 
@@ -119,7 +120,7 @@ public:
             else if (largest > SMALL_NODE_PHOTONS)
                 split_nodes(level, {"photons/split_nodes.comp", 0, m_defines, {}}, m_device.limits().subgroup_size);
             else
-                split_nodes(level, name_small_kernel(largest > SMALL_NODE_PHOTONS / 2 ? 64 : 32), 1);
+                split_nodes(level, name_small_kernel(std::max(32u, std::bit_ceil(static_cast<std::uint32_t>(largest)))), 1);
         }
         m_batches->run();
         order_columns(m_device, m_photons, m_ranges, m_tree);
@@ -143,7 +144,7 @@ private:
         if (m_tree.count == 0)
             return;
         m_other = gpu::Buffer(m_device, bytes, "kd-tree positions");
-        m_candidates = gpu::Buffer(m_device, m_tree.count * sizeof(glm::uvec2), "kd-tree keys");
+        m_candidates = gpu::Buffer(m_device, m_tree.count * sizeof(std::uint32_t), "kd-tree keys");
         m_scales = gpu::Buffer(m_device, (1 + m_tree.range_rows) * sizeof(glm::vec4), "kd-tree scales");
         m_box_keys = gpu::Buffer(m_device, 6 * sizeof(std::uint32_t), "kd-tree boxes");
     }

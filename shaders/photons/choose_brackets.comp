@@ -3,12 +3,14 @@
 // bracket that missed the median, or holds too much, narrows down where it is, and samples are taken there.
 // Inputs: source, range_rows, scales, tree_nodes. In and out: brackets. Scratch: candidates. Define: RANGE_ROWS.
 #include "shared/prelude.glsl"
+#define LISTED
 #include "photons/large_nodes.glsl"
 
 // Samples a node, at most; what a subgroup sorts out in little time.
 const uint LARGEST_SAMPLE = 4096u;
 // Deviations of a random sample's median between which it is sought.
 const float DEVIATIONS = 4.0;
+const uint MOST_PASSES = 30u; // as in split_nodes.comp
 
 TreeBracket start_bracket(uint heap, uint first, uint n) {
     uvec4 all = uvec4(uint(LEAST.value), LEAST.place, uint(GREATEST.value), GREATEST.place);
@@ -41,10 +43,15 @@ uint sample_keys(uint first, uint n, TreeBracket bracket, uint samples) {
         // Other rounds take other photons.
         uint place = first + min(find_spaced(n, i + LANE, samples) + build.round * 7u % (n / samples), n - 1u);
         Key key = read_source(place, bracket.axis);
-        keep(key, !is_less(key, least) && is_less(key, greatest), first, kept);
+        keep(place, !is_less(key, least) && is_less(key, greatest), first, kept);
     }
-    synchronize();
+    subgroupMemoryBarrierBuffer();
+    subgroupBarrier();
     return kept;
+}
+
+Key find_sample(uint first, uint n, uint kept, uint rank, uint axis) {
+    return find_ranked(Search(first, first + kept, axis, rank, first, first + n), MOST_PASSES);
 }
 
 void main() {
@@ -62,12 +69,11 @@ void main() {
     float wanted = (float(rank - bracket.below_least) + 0.5) / float(bracket.within) * float(kept);
     float margin = DEVIATIONS * 0.5 * sqrt(float(kept)) + 1.0;
     if (wanted - margin >= 0.0) {
-        Key lo = select_candidate(first, kept, uint(wanted - margin));
+        Key lo = find_sample(first, n, kept, uint(wanted - margin), bracket.axis);
         bracket.lo_hi.xy = uvec2(uint(lo.value), lo.place);
     }
     if (wanted + margin < float(kept)) {
-        sample_keys(first, n, bracket, samples);
-        Key hi = select_candidate(first, kept, uint(wanted + margin));
+        Key hi = find_sample(first, n, kept, uint(wanted + margin), bracket.axis);
         bracket.lo_hi.zw = uvec2(uint(hi.value), hi.place);
     }
     bracket.below = bracket.kept = 0u;

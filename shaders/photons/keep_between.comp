@@ -27,6 +27,6 @@ void main() {
     uint first = find_first_position(build.photon_count, part.node, build.level);
     for (uint i = part.first; i < part.end; i += WIDTH) {
         Key key = read_source(min(i + LANE, part.end - 1u), axis);
-        keep(key, i + LANE < part.end && !is_less(key, lo) && is_less(key, hi), first, kept);
+        keep(key.place, i + LANE < part.end && !is_less(key, lo) && is_less(key, hi), first, kept);
     }
 }

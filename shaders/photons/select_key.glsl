@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the key of a rank among the photons of a node, with one subgroup, and moves photons to its two sides.
-// Needs photons/tree_source.glsl. Scratch: candidates (key, place), a photon's worth each.
-#pragma binding coherent uvec2 candidates
+// Finds the key of a rank among photons, with one subgroup, and moves photons to its two sides. Keys are counted against
+// several pivots at once until few are left; nothing is stored meanwhile: a store costs as much as several such passes.
+// Needs photons/tree_source.glsl. Define: LISTED where the photons are those whose places stand in `candidates`.
+#pragma binding coherent uint candidates
 
 #define WIDTH gl_WorkGroupSize.x
 #define LANE gl_LocalInvocationID.x
@@ -17,16 +18,19 @@ const Key GREATEST = Key(GREATEST_KEY, 0xffffffffu);
 
 bool is_less(Key a, Key b) { return a.value < b.value || (a.value == b.value && a.place < b.place); }
 
-void synchronize() {
-    subgroupMemoryBarrierBuffer();
-    subgroupBarrier();
-}
+Key read_source(uint place, uint axis) { return Key(find_key(source_at(place), axis), place); }
 
-// Keys a lane holds when samples are ranked.
+#ifdef LISTED
+Key read_item(uint i, uint axis) { return read_source(candidates[i], axis); }
+#else
+Key read_item(uint i, uint axis) { return read_source(i, axis); }
+#endif
+
+// Place s of `parts` evenly spaced ones among n, without overflow; parts are a power of two, n is no less.
+uint find_spaced(uint n, uint s, uint parts) { return n / parts * s + n % parts * s / parts + n / (2u * parts); }
+
+// Keys a lane holds when they are ranked.
 const uint HELD = 4u;
-// How far from the rank sought, in samples of 4·8, the two sampled keys are: 1.8 deviations of a random sample.
-const float MARGIN = 5.0 / 32.0;
-
 Key held[HELD];
 uint ranks[HELD];
 
@@ -51,115 +55,120 @@ Key find_held(uint rank) {
     return Key(subgroupBroadcast(found.value, lane), subgroupBroadcast(found.place, lane));
 }
 
-// Place s of `parts` evenly spaced ones among n, without overflow; parts are a power of two, n is no less.
-uint find_spaced(uint n, uint s, uint parts) { return n / parts * s + n % parts * s / parts + n / (2u * parts); }
+// Items first … end - 1, along an axis, whose places are from place_first up to place_end; the key of `rank` is sought.
+struct Search {
+    uint first, end;
+    uint axis, rank;
+    uint place_first, place_end;
+};
 
-// Two of the held samples about the wanted share of all keys.
-void choose_bracket(float share, out Key lo, out Key hi) {
+// The key sought is in [lo, hi); keys before lo, and before hi.
+struct Range {
+    Key lo, hi;
+    uint below, behind;
+};
+
+const uint PIVOTS = 8u;
+Key pivots[PIVOTS];
+uint counts[PIVOTS];
+
+// Of 32 sampled keys, those so far from the rank sought: few deviations of a random sample.
+const float SAMPLE_OFFSETS[PIVOTS] = float[](-8.0, -5.0, -3.0, -1.0, 1.0, 3.0, 5.0, 8.0);
+// Between two keys: evenly, so that the distance between them shrinks for certain, and about where the one sought is
+// when keys are evenly dense.
+const float EVEN_SHARES[PIVOTS / 2u] = float[](0.2, 0.4, 0.6, 0.8);
+const float NEAR_OFFSETS[PIVOTS / 2u] = float[](-0.12, -0.03, 0.03, 0.12);
+
+void sample_pivots(Search search) {
+    uint n = search.end - search.first;
+    for (uint i = 0u; i < HELD; ++i)
+        held[i] = read_item(search.first + find_spaced(n, i * WIDTH + LANE, HELD * WIDTH), search.axis);
     rank_held();
-    float samples = float(HELD * WIDTH);
-    int below = int(floor((share - MARGIN) * samples));
-    int above = int(ceil((share + MARGIN) * samples));
-    lo = LEAST;
-    hi = GREATEST;
-    Key low = find_held(uint(max(below, 0)));
-    Key high = find_held(uint(min(above, int(HELD * WIDTH) - 1)));
-    if (below >= 0) lo = low;
-    if (above < int(HELD * WIDTH)) hi = high;
+    float scale = float(HELD * WIDTH);
+    float wanted = (float(search.rank) + 0.5) / float(n) * scale - 0.5;
+    for (uint i = 0u; i < PIVOTS; ++i)
+        pivots[i] = find_held(uint(clamp(wanted + SAMPLE_OFFSETS[i] * scale / 32.0 + 0.5, 0.0, scale - 1.0)));
 }
 
-Key read_source(uint place, uint axis) { return Key(find_key(source_at(place), axis), place); }
-
-Key read_candidate(uint i) {
-    uvec2 candidate = candidates[i];
-    return Key(int(candidate.x), candidate.y);
+float get_share(uint i, float expected) {
+    return i < PIVOTS / 2u ? EVEN_SHARES[i] : expected + NEAR_OFFSETS[i - PIVOTS / 2u];
 }
 
-void keep(Key key, bool is_kept, uint first, inout uint kept) {
-    uvec4 ballot = subgroupBallot(is_kept);
-    if (is_kept) candidates[first + kept + subgroupBallotExclusiveBitCount(ballot)] = uvec2(uint(key.value), key.place);
-    kept += subgroupBallotBitCount(ballot);
-}
+uint interpolate(uint span, float share) { return clamp(uint(float(span) * clamp(share, 0.0, 1.0)), 1u, span - 1u); }
 
-// Sets aside the keys of the source from lo up to hi; returns how many are below.
-uint keep_source(uint first, uint end, uint axis, Key lo, Key hi, out uint kept) {
-    uint below = 0u;
-    kept = 0u;
-    for (uint i = first; i < end; i += WIDTH) {
-        Key key = read_source(min(i + LANE, end - 1u), axis);
-        bool is_valid = i + LANE < end;
-        bool is_low = is_less(key, lo);
-        below += uint(is_valid && is_low);
-        keep(key, is_valid && !is_low && is_less(key, hi), first, kept);
+// Between the values of the range's ends; of places where there is no value between.
+void interpolate_pivots(Search search, Range range) {
+    float expected = (float(search.rank - range.below) + 0.5) / float(range.behind - range.below);
+    uint span = uint(range.hi.value) - uint(range.lo.value);
+    uint place = max(range.lo.place, search.place_first);
+    uint places = (span == 0u ? min(range.hi.place, search.place_end) : search.place_end) - place;
+    for (uint i = 0u; i < PIVOTS; ++i) {
+        float share = get_share(i, expected);
+        if (span >= 2u) pivots[i] = Key(int(uint(range.lo.value) + interpolate(span, share)), 0u);
+        else pivots[i] = Key(range.lo.value, place + (places < 2u ? 1u : interpolate(places, share)));
     }
-    synchronize();
-    return subgroupAdd(below);
+    if (span == 1u) pivots[0] = Key(range.hi.value, 0u);
 }
 
-uint count_below(uint first, uint end, Key limit) {
-    uint below = 0u;
-    for (uint i = first + LANE; i < end; i += WIDTH) below += uint(is_less(read_candidate(i), limit));
-    return subgroupAdd(below);
-}
-
-// Of the candidates keeps those from lo up to hi, in place.
-uint keep_candidates(uint first, uint end, Key lo, Key hi) {
-    uint kept = 0u;
-    for (uint i = first; i < end; i += WIDTH) {
-        Key key = read_candidate(min(i + LANE, end - 1u));
-        synchronize();
-        keep(key, i + LANE < end && !is_less(key, lo) && is_less(key, hi), first, kept);
-        synchronize();
+void count_below_pivots(Search search) {
+    for (uint i = 0u; i < PIVOTS; ++i) counts[i] = 0u;
+    for (uint item = search.first + LANE; item < search.end; item += WIDTH) {
+        Key key = read_item(item, search.axis);
+        for (uint i = 0u; i < PIVOTS; ++i) counts[i] += uint(is_less(key, pivots[i]));
     }
-    return kept;
+    for (uint i = 0u; i < PIVOTS; ++i) counts[i] = subgroupAdd(counts[i]);
 }
 
-// Moves a bracket that missed the rank to the side where it is. Returns whether it had missed.
-bool mend_bracket(uint rank, uint below, uint kept, inout Key lo, inout Key hi) {
-    bool is_before = rank < below, is_behind = rank >= below + kept;
-    Key old = lo;
-    if (is_behind) lo = hi;
-    if (is_behind) hi = GREATEST;
-    if (is_before) lo = LEAST;
-    if (is_before) hi = old;
-    return is_before || is_behind;
+void narrow_range(uint rank, inout Range range) {
+    for (uint i = 0u; i < PIVOTS; ++i) {
+        bool is_lo = counts[i] <= rank && is_less(range.lo, pivots[i]);
+        bool is_hi = counts[i] > rank && is_less(pivots[i], range.hi);
+        if (is_lo) range.lo = pivots[i];
+        if (is_lo) range.below = counts[i];
+        if (is_hi) range.hi = pivots[i];
+        if (is_hi) range.behind = counts[i];
+    }
 }
 
-// The key of that rank among `count` candidates.
-Key select_candidate(uint first, uint count, uint rank) {
-    while (count > HELD * WIDTH) {
+// Holds the keys within the range; false if a lane met too many.
+bool hold_range(Search search, Range range) {
+    uint n = 0u;
+    for (uint i = 0u; i < HELD; ++i) held[i] = GREATEST;
+    for (uint item = search.first + LANE; item < search.end; item += WIDTH) {
+        Key key = read_item(item, search.axis);
+        bool is_within = !is_less(key, range.lo) && is_less(key, range.hi);
         for (uint i = 0u; i < HELD; ++i)
-            held[i] = read_candidate(first + find_spaced(count, i * WIDTH + LANE, HELD * WIDTH));
-        Key lo, hi;
-        choose_bracket((float(rank) + 0.5) / float(count), lo, hi);
-        uint below = count_below(first, first + count, lo);
-        uint kept = count_below(first, first + count, hi) - below;
-        if (mend_bracket(rank, below, kept, lo, hi)) below = count_below(first, first + count, lo);
-        count = keep_candidates(first, first + count, lo, hi);
-        rank -= below;
+            if (is_within && n == i) held[i] = key;
+        n += uint(is_within);
     }
-    for (uint i = 0u; i < HELD; ++i) {
-        uint at = i * WIDTH + LANE;
-        held[i] = read_candidate(first + min(at, count - 1u));
-        if (at >= count) held[i] = GREATEST;
+    return !subgroupAny(n > HELD);
+}
+
+// The key sought; GREATEST if it takes more than that many passes over the items.
+Key find_ranked(Search search, uint most_passes) {
+    Range range = Range(LEAST, GREATEST, 0u, search.end - search.first);
+    uint few = HELD * WIDTH / 2u;
+    uint passes = 0u;
+    bool is_held = false;
+    if (range.behind > HELD * WIDTH) {
+        sample_pivots(search);
+        count_below_pivots(search);
+        narrow_range(search.rank, range);
+    }
+    while (!is_held && passes < most_passes) {
+        ++passes;
+        bool is_few = range.behind - range.below <= few;
+        if (is_few) {
+            is_held = hold_range(search, range);
+            few = HELD;
+        } else {
+            interpolate_pivots(search, range);
+            count_below_pivots(search);
+            narrow_range(search.rank, range);
+        }
     }
     rank_held();
-    return find_held(rank);
-}
-
-// The key of that rank among the photons first … end - 1 of the source.
-Key find_median(uint first, uint end, uint rank, uint axis) {
-    Key lo = LEAST, hi = GREATEST;
-    uint n = end - first;
-    if (n > HELD * WIDTH) {
-        for (uint i = 0u; i < HELD; ++i)
-            held[i] = read_source(first + find_spaced(n, i * WIDTH + LANE, HELD * WIDTH), axis);
-        choose_bracket((float(rank) + 0.5) / float(n), lo, hi);
-    }
-    uint kept;
-    uint below = keep_source(first, end, axis, lo, hi, kept);
-    if (mend_bracket(rank, below, kept, lo, hi)) below = keep_source(first, end, axis, lo, hi, kept);
-    return select_candidate(first, kept, rank - below);
+    return is_held ? find_held(search.rank - range.below) : GREATEST;
 }
 
 // Writes the photons below the pivot from `left` on, the others from `right` on.
@@ -169,13 +178,12 @@ void move_photons(uint first, uint end, uint axis, Key pivot, inout uint left, i
         vec4 photon = source_at(place);
         bool is_below = is_less(Key(find_key(photon, axis), place), pivot);
         bool is_valid = i + LANE < end;
-        uvec4 lefts = subgroupBallot(is_valid && is_below);
-        uvec4 rights = subgroupBallot(is_valid && !is_below);
-        uint to = is_below ? left + subgroupBallotExclusiveBitCount(lefts)
-                           : right + subgroupBallotExclusiveBitCount(rights);
-        if (is_valid) target[to] = photon;
-        left += subgroupBallotBitCount(lefts);
-        right += subgroupBallotBitCount(rights);
+        uvec4 ballot = subgroupBallot(is_valid && is_below);
+        uint lefts = subgroupBallotExclusiveBitCount(ballot);
+        if (is_valid) target[is_below ? left + lefts : right + LANE - lefts] = photon;
+        lefts = subgroupBallotBitCount(ballot);
+        left += lefts;
+        right += min(WIDTH, end - i) - lefts;
         widen(halves.left_lo, halves.left_hi, photon.xyz, is_below); // the last photon may come again
         widen(halves.right_lo, halves.right_hi, photon.xyz, !is_below);
     }
