@@ -15,8 +15,9 @@ namespace photonloupe {
 namespace {
 
 constexpr const char* STAGE = "build tree";
-// Nodes of more photons are split by several subgroups.
-constexpr std::uint64_t LARGE_NODE_PHOTONS = 16384;
+// Nodes of more photons are split by several subgroups. One subgroup may pass over a node 26 times (split_nodes.comp)
+// and then has loop turns left (shaders/shared/turns.glsl).
+constexpr std::uint64_t LARGE_NODE_PHOTONS = 16384, LARGE_NODE_BLOCKS = 2048;
 // The largest nodes that an invocation sorts alone.
 constexpr std::uint32_t SMALL_NODE_PHOTONS = 128;
 // Photons, levels counted, of the first batch; later ones follow the device's pace.
@@ -115,7 +116,7 @@ public:
         number_photons();
         for (std::uint32_t level = 0; level < m_tree.leaf_level; ++level) {
             const std::uint64_t largest = find_largest_node(m_tree.count, level);
-            if (largest > LARGE_NODE_PHOTONS)
+            if (largest > std::min(LARGE_NODE_PHOTONS, LARGE_NODE_BLOCKS * m_device.limits().subgroup_size))
                 split_large_nodes(level);
             else if (largest > SMALL_NODE_PHOTONS)
                 split_nodes(level, {"photons/split_nodes.comp", 0, m_defines, {}}, m_device.limits().subgroup_size);
@@ -143,15 +144,14 @@ private:
         }
         if (m_tree.count == 0)
             return;
-        m_other = gpu::Buffer(m_device, bytes, "kd-tree positions");
-        m_candidates = gpu::Buffer(m_device, m_tree.count * sizeof(std::uint32_t), "kd-tree keys");
         m_scales = gpu::Buffer(m_device, (1 + m_tree.range_rows) * sizeof(glm::vec4), "kd-tree scales");
         m_box_keys = gpu::Buffer(m_device, 6 * sizeof(std::uint32_t), "kd-tree boxes");
     }
 
-    // Photons of a level are read here; those of the last end in tree.positions.
+    // Photons of a level are read here; those of the last end in tree.positions. What is filled last serves before:
+    // the normals for photons, their boxes, which are no smaller than an integer a photon, for candidates.
     const gpu::Buffer& source(std::uint32_t level) const {
-        return (m_tree.leaf_level - level) % 2 == 0 ? m_tree.positions : m_other;
+        return (m_tree.leaf_level - level) % 2 == 0 ? m_tree.positions : m_tree.normals;
     }
     const gpu::Buffer& rows() const { return m_ranges ? m_ranges->values : m_photons.position_emitter; }
 
@@ -209,8 +209,8 @@ private:
                                     {"range_rows", rows()},
                                     {"scales", m_scales},
                                     {"axis_scales", m_scales},
-                                    {"target", m_other},
-                                    {"candidates", m_candidates},
+                                    {"target", source(1)},
+                                    {"candidates", m_tree.normal_boxes},
                                     {"tree_nodes", m_tree.nodes}},
                                    make_push(0, 0, 1), 1);
     }
@@ -227,7 +227,7 @@ private:
                            {"range_rows", rows()},
                            {"scales", m_scales},
                            {"target", source(level + 1)},
-                           {"candidates", m_candidates},
+                           {"candidates", m_tree.normal_boxes},
                            {"tree_nodes", m_tree.nodes}},
                           make_push(level, first, count), count * invocations);
             m_batches->run_if_full();
@@ -255,7 +255,7 @@ private:
                                         {"range_rows", rows()},
                                         {"scales", m_scales},
                                         {"target", source(level + 1)},
-                                        {"candidates", m_candidates},
+                                        {"candidates", m_tree.normal_boxes},
                                         {"tree_nodes", m_tree.nodes},
                                         {"brackets", brackets},
                                         {"left_counts", left_counts},
@@ -285,7 +285,7 @@ private:
     std::optional<Batches> m_batches;
     std::vector<std::string> m_defines;
     KdTree m_tree;
-    gpu::Buffer m_other, m_candidates, m_scales, m_box_keys;
+    gpu::Buffer m_scales, m_box_keys;
 };
 
 } // namespace

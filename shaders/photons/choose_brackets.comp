@@ -10,7 +10,7 @@
 const uint LARGEST_SAMPLE = 4096u;
 // Deviations of a random sample's median between which it is sought.
 const float DEVIATIONS = 4.0;
-const uint MOST_PASSES = 30u; // as in split_nodes.comp
+const uint MOST_PASSES = 26u; // as in split_nodes.comp
 
 TreeBracket start_bracket(uint heap, uint first, uint n) {
     uvec4 all = uvec4(uint(LEAST.value), LEAST.place, uint(GREATEST.value), GREATEST.place);
@@ -32,6 +32,13 @@ void narrow(inout TreeBracket bracket, uint rank) {
         bracket.within = bracket.kept;
         bracket.below_least = bracket.below;
     }
+}
+
+// Appends places to the candidates of the node that begins at `first`.
+void keep(uint place, bool is_kept, uint first, inout uint kept) {
+    uvec4 ballot = subgroupBallot(is_kept);
+    if (is_kept) candidates[first + kept + subgroupBallotExclusiveBitCount(ballot)] = place;
+    kept += subgroupBallotBitCount(ballot);
 }
 
 // Evenly spaced photons' keys between the limits become candidates.

@@ -17,16 +17,18 @@ void main() {
         within += uint(!is_low && is_less(key, hi));
     }
     below = subgroupAdd(below);
-    within = subgroupAdd(within);
     uint kept = 0u;
+    uint of_all = subgroupAdd(within);
     if (LANE == 0u) {
         atomicAdd(brackets[part.node].below, below);
-        kept = atomicAdd(brackets[part.node].kept, within); // in any order: the key of a rank is one
+        kept = atomicAdd(brackets[part.node].kept, of_all); // in any order: the key of a rank is one
     }
-    kept = subgroupBroadcastFirst(kept);
-    uint first = find_first_position(build.photon_count, part.node, build.level);
-    for (uint i = part.first; i < part.end; i += WIDTH) {
-        Key key = read_source(min(i + LANE, part.end - 1u), axis);
-        keep(key.place, i + LANE < part.end && !is_less(key, lo) && is_less(key, hi), first, kept);
+    uint to = find_first_position(build.photon_count, part.node, build.level) + subgroupBroadcastFirst(kept) +
+              subgroupExclusiveAdd(within);
+    for (uint i = part.first + LANE; i < part.end; i += WIDTH) {
+        Key key = read_source(i, axis);
+        bool is_within = !is_less(key, lo) && is_less(key, hi);
+        if (is_within) candidates[to] = i;
+        to += uint(is_within);
     }
 }

@@ -9,13 +9,6 @@
 Key get_lo(uint node) { return Key(int(brackets[node].lo_hi.x), brackets[node].lo_hi.y); }
 Key get_hi(uint node) { return Key(int(brackets[node].lo_hi.z), brackets[node].lo_hi.w); }
 
-// Appends places to the candidates of the node that begins at `first`.
-void keep(uint place, bool is_kept, uint first, inout uint kept) {
-    uvec4 ballot = subgroupBallot(is_kept);
-    if (is_kept) candidates[first + kept + subgroupBallotExclusiveBitCount(ballot)] = place;
-    kept += subgroupBallotBitCount(ballot);
-}
-
 // The part of a node that this workgroup takes.
 struct Part {
     uint node, first, end;

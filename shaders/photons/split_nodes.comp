@@ -6,7 +6,7 @@
 #include "photons/select_key.glsl"
 
 // Each shrinks the distance of values, then of places, to a fifth at least.
-const uint MOST_PASSES = 30u;
+const uint MOST_PASSES = 26u;
 
 void main() {
     uint node = build.first + gl_WorkGroupID.x;
