@@ -5,6 +5,7 @@
 #include "shared/prelude.glsl"
 #define LISTED
 #include "photons/large_nodes.glsl"
+#include "photons/choose_axis.glsl"
 
 // Samples a node, at most; what a subgroup sorts out in little time.
 const uint LARGEST_SAMPLE = 4096u;

@@ -5,6 +5,7 @@
 #include "shared/prelude.glsl"
 #include "photons/tree_source.glsl"
 #include "photons/select_key.glsl"
+#include "photons/choose_axis.glsl"
 #pragma binding writeonly vec4 axis_scales
 
 const uint LARGEST_SAMPLE = 4096u;

@@ -4,6 +4,7 @@
 #include "shared/prelude.glsl"
 #include "photons/tree_source.glsl"
 #include "photons/select_key.glsl"
+#include "photons/choose_axis.glsl"
 
 // Each shrinks the distance of values, then of places, to a fifth at least.
 const uint MOST_PASSES = 26u;

@@ -4,6 +4,9 @@
 // Defines: SORT_SIZE keys, EACH_KEY(DO) and SORT_NETWORK(DO) as engine/photons/build_tree.cpp writes them, RANGE_ROWS.
 #include "shared/prelude.glsl"
 #include "photons/tree_source.glsl"
+#ifdef RANGE_ROWS
+#include "photons/node_spread.glsl"
+#endif
 
 #define LOAD_KEY(i) keys[i] = i < n ? find_key(source_at(first + i), axis) : GREATEST_KEY;
 #define SORT_KEYS(a, b) { int least = min(keys[a], keys[b]); keys[b] = max(keys[a], keys[b]); keys[a] = least; }
