@@ -1,198 +1,98 @@
 // SPDX-License-Identifier: Apache-2.0
-// Drives the kd-tree kernels: copy the photons, split level by level, then whole subtrees at once.
+// The kd-tree after its photons are in order: what is copied to them, the nodes' boxes, copies, and reading it back.
 #include "photons/kd_tree.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
-#include <thread>
-
-#include <glm/common.hpp>
-
-#include <span>
 
 #include "gpu/commands.h"
 
 namespace photonloupe {
 namespace {
 
-// Nodes with more photons are split by the host: one workgroup would need too many loop turns
-// (shaders/shared/turns.glsl).
-constexpr std::uint64_t HOST_NODE_PHOTONS = 16384;
-// From nodes of this size on a workgroup finishes a whole subtree, whose photons then stay in the processor's cache.
-constexpr std::uint64_t SUBTREE_PHOTONS = 1024;
-
-std::uint64_t count_tiles(std::uint64_t photon_count) {
-    return (photon_count + shared::TREE_TILE - 1) / shared::TREE_TILE;
+// Where a tree has none, something stands in for what a kernel declares.
+const gpu::Buffer& choose_buffer(const gpu::Buffer& buffer, const gpu::Buffer& other) {
+    return buffer.is_empty() ? other : buffer;
 }
 
-struct CopyPush {
-    std::uint32_t first;
-    std::uint32_t count;
-};
-
-void copy_positions(gpu::Device& device, const PhotonMap& photons, const KdTree& tree, const Progress& progress) {
-    gpu::run_in_chunks(device, "build tree", photons.count, 1 << 16, progress,
-                       [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
-                           const CopyPush push{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count)};
-                           commands.dispatch(
-                               {"photons/number_photons.comp", 64, {}, {}},
-                               {{"position_emitter", photons.position_emitter}, {"tree_positions", tree.positions}},
-                               push, count);
-                       });
-}
-
-void split_levels(gpu::Device& device, const KdTree& tree, std::uint32_t root_level, std::uint32_t last_level,
-                  const Progress& progress) {
-    gpu::run_in_chunks(
-        device, "build tree", 1ull << root_level, 1, progress,
-        [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
-            const shared::TreeBuild push{static_cast<std::uint32_t>(tree.count), tree.leaf_level, root_level,
-                                         static_cast<std::uint32_t>(first), last_level};
-            commands.dispatch({"photons/build_tree.comp", 0, {}, {}},
-                              {{"tree_positions", tree.positions}, {"tree_nodes", tree.nodes}}, push,
-                              count * device.limits().subgroup_size);
-        },
-        device.limits().max_group_count);
-}
-
-float pick(const glm::vec4& position, int axis) {
-    return position[axis];
-}
-
-// The box and widest axis of photons, as the kernel finds them.
-shared::TreeNode bound_photons(std::span<const glm::vec4> photons, std::uint32_t& axis) {
-    glm::vec3 lo(photons[0]), hi(photons[0]);
-    for (const glm::vec4& photon : photons) {
-        lo = glm::min(lo, glm::vec3(photon));
-        hi = glm::max(hi, glm::vec3(photon));
-    }
-    const glm::vec3 extent = hi - lo;
-    axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
-    return {glm::vec4(lo, 0.0f), glm::vec4(hi, std::bit_cast<float>(axis))};
-}
-
-// Splits one node about the median of (coordinate, photon id), like build_tree.comp.
-shared::TreeNode split_node(std::span<glm::vec4> photons, std::size_t split) {
-    std::uint32_t axis = 0;
-    shared::TreeNode node = bound_photons(photons, axis);
-    const int coordinate = static_cast<int>(axis);
-    const auto before = [coordinate](const glm::vec4& a, const glm::vec4& b) {
-        const float x = pick(a, coordinate), y = pick(b, coordinate);
-        return x < y || (x == y && std::bit_cast<std::uint32_t>(a.w) < std::bit_cast<std::uint32_t>(b.w));
-    };
-    std::nth_element(photons.begin(), photons.begin() + static_cast<std::ptrdiff_t>(split), photons.end(), before);
-    node.lo_split.w = pick(photons[split], coordinate); // the smallest of the right half
-    return node;
-}
-
-// Splits the large nodes at the top; returns the first level left to the device.
-std::uint32_t split_top(KdTree& tree, const Progress& progress) {
-    std::uint32_t level = 0;
-    if (tree.count <= HOST_NODE_PHOTONS)
-        return level;
-    std::vector<glm::vec4> photons = tree.positions.read<glm::vec4>(tree.count);
-    for (; level < tree.leaf_level && (tree.count >> level) >= HOST_NODE_PHOTONS; ++level) {
-        progress.report("build tree", static_cast<double>(level) / tree.leaf_level);
-        std::vector<shared::TreeNode> nodes(std::size_t{1} << level);
-        const auto split_from = [&](std::size_t first) { // two threads take every other node
-            for (std::size_t node = first; node < nodes.size(); node += 2) {
-                const std::uint32_t begin = find_first_position(tree.count, node, level);
-                const std::uint32_t end = find_first_position(tree.count, node + 1, level);
-                const std::uint32_t split = find_first_position(tree.count, 2 * node + 1, level + 1);
-                nodes[node] = split_node({&photons[begin], end - begin}, split - begin);
-            }
-        };
-        std::thread other(split_from, 1);
-        split_from(0);
-        other.join();
-        tree.nodes.upload(nodes.data(), nodes.size() * sizeof(shared::TreeNode),
-                          nodes.size() * sizeof(shared::TreeNode));
-    }
-    tree.positions.upload(photons.data(), photons.size() * sizeof(glm::vec4));
-    return level;
+std::vector<std::string> define_rows(std::uint32_t rows) {
+    return rows == 0 ? std::vector<std::string>{} : std::vector{"RANGE_ROWS " + std::to_string(rows) + "u"};
 }
 
 } // namespace
 
-std::uint32_t find_first_position(std::uint64_t count, std::uint64_t node, std::uint32_t level) {
-    return static_cast<std::uint32_t>(std::min(shared::TREE_TILE * (count_tiles(count) * node >> level), count));
-}
-
-void order_normals(gpu::Device& device, const PhotonMap& photons, const KdTree& tree, const Progress& progress) {
-    gpu::run_in_chunks(device, "build tree", photons.count, 1 << 16, progress,
+void order_columns(gpu::Device& device, const PhotonMap& photons, const RangeRows* ranges, const KdTree& tree,
+                   const Progress& progress) {
+    const gpu::KernelSource kernel{"photons/order_columns.comp", 64, define_rows(ranges ? tree.range_rows : 0), {}};
+    gpu::run_in_chunks(device, "build tree", photons.count, 1 << 18, progress,
                        [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
-                           const CopyPush push{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count)};
-                           commands.dispatch({"photons/gather_normals.comp", 64, {}, {}},
+                           const struct {
+                               std::uint32_t first, count;
+                           } push{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count)};
+                           commands.dispatch(kernel,
                                              {{"normal_index", photons.normal_index},
                                               {"position_emitter", photons.position_emitter},
+                                              {"range_rows", ranges ? ranges->values : tree.positions},
                                               {"tree_positions", tree.positions},
-                                              {"tree_normals", tree.normals}},
+                                              {"tree_normals", tree.normals},
+                                              {"tree_rows", choose_buffer(tree.rows, tree.normals)}},
                                              push, count);
                        });
-}
-
-std::uint32_t find_leaf_level(std::uint64_t photon_count) {
-    std::uint32_t level = 0;
-    while (shared::TREE_TILE * ((count_tiles(photon_count) + (1ull << level) - 1) >> level) > shared::TREE_LEAF_PHOTONS)
-        ++level;
-    return level;
-}
-
-KdTree build_tree(gpu::Device& device, const PhotonMap& photons, const Progress& progress) {
-    KdTree tree;
-    tree.count = photons.count;
-    tree.leaf_level = find_leaf_level(photons.count);
-    const std::uint64_t bytes = photons.count * sizeof(glm::vec4);
-    tree.nodes = gpu::Buffer(device, (2ull << tree.leaf_level) * sizeof(shared::TreeNode), "kd-tree nodes");
-    tree.positions = gpu::Buffer(device, bytes, "kd-tree positions");
-    tree.normals = gpu::Buffer(device, bytes, "kd-tree normals");
-    if (photons.count == 0)
-        return tree;
-    copy_positions(device, photons, tree, progress);
-    std::uint32_t level = split_top(tree, progress);
-    for (; level < tree.leaf_level && (tree.count >> level) > SUBTREE_PHOTONS; ++level)
-        split_levels(device, tree, level, level, progress);
-    split_levels(device, tree, level, tree.leaf_level, progress);
-    order_normals(device, photons, tree, progress);
-    return tree;
 }
 
 KdTree copy_tree(gpu::Device& device, const KdTree& tree) {
     KdTree copy;
     copy.count = tree.count;
     copy.leaf_level = tree.leaf_level;
-    copy.nodes = gpu::Buffer(device, tree.nodes.size_bytes(), "kd-tree nodes");
-    copy.positions = gpu::Buffer(device, tree.positions.size_bytes(), "kd-tree positions");
-    copy.normals = gpu::Buffer(device, tree.normals.size_bytes(), "kd-tree normals");
+    copy.range_rows = tree.range_rows;
     gpu::Commands commands(device, "copy tree");
-    commands.copy(tree.nodes, 0, copy.nodes, 0, tree.nodes.size_bytes());
-    commands.copy(tree.positions, 0, copy.positions, 0, tree.positions.size_bytes());
-    commands.copy(tree.normals, 0, copy.normals, 0, tree.normals.size_bytes());
+    const auto copy_buffer = [&](const gpu::Buffer& from, gpu::Buffer& to, const char* purpose) {
+        if (from.is_empty())
+            return;
+        to = gpu::Buffer(device, from.size_bytes(), purpose);
+        commands.copy(from, 0, to, 0, from.size_bytes());
+    };
+    copy_buffer(tree.nodes, copy.nodes, "kd-tree nodes");
+    copy_buffer(tree.positions, copy.positions, "kd-tree positions");
+    copy_buffer(tree.normals, copy.normals, "kd-tree normals");
+    copy_buffer(tree.normal_boxes, copy.normal_boxes, "kd-tree boxes of normals");
+    copy_buffer(tree.rows, copy.rows, "kd-tree ranges");
+    copy_buffer(tree.ranges, copy.ranges, "kd-tree ranges of nodes");
     commands.run();
     return copy;
 }
 
-void refit_tree(gpu::Device& device, const KdTree& tree, const std::string& stage) {
+void bound_tree(gpu::Device& device, const KdTree& tree, const std::string& stage, bool with_ranges) {
     if (tree.count == 0)
         return;
     gpu::Commands commands(device, stage);
     const auto photon_count = static_cast<std::uint32_t>(tree.count);
+    const std::vector<std::string> defines = define_rows(with_ranges ? tree.range_rows : 0);
     const std::uint64_t largest = std::uint64_t{device.limits().max_group_count} * 64;
-    const auto refit_level = [&](std::uint32_t level, const char* kernel) {
+    const auto bound_level = [&](std::uint32_t level, const char* kernel) {
         const std::uint64_t nodes = 1ull << level;
         for (std::uint64_t first = 0; first < nodes; first += largest) {
             const std::uint64_t count = std::min(largest, nodes - first);
             const shared::TreeRefit push{photon_count, level, static_cast<std::uint32_t>(first),
                                          static_cast<std::uint32_t>(count)};
-            commands.dispatch({kernel, 64, {}, {}}, {{"tree_positions", tree.positions}, {"tree_nodes", tree.nodes}},
+            commands.dispatch({kernel, 64, defines, {}},
+                              {{"tree_positions", tree.positions},
+                               {"tree_normals", tree.normals},
+                               {"tree_rows", choose_buffer(tree.rows, tree.normals)},
+                               {"tree_nodes", tree.nodes},
+                               {"normal_boxes", tree.normal_boxes},
+                               {"ranges", choose_buffer(tree.ranges, tree.normal_boxes)}},
                               push, count);
         }
     };
-    refit_level(tree.leaf_level, "photons/refit_leaves.comp");
+    bound_level(tree.leaf_level, "photons/refit_leaves.comp");
     for (std::uint32_t level = tree.leaf_level; level > 0; --level)
-        refit_level(level - 1, "photons/refit_nodes.comp");
+        bound_level(level - 1, "photons/refit_nodes.comp");
     commands.run();
+}
+
+void refit_tree(gpu::Device& device, const KdTree& tree, const std::string& stage) {
+    bound_tree(device, tree, stage, false);
 }
 
 TreeArrays read_tree(const KdTree& tree) {

@@ -18,18 +18,41 @@ const uint TREE_FANOUT = 8u;
 // Entries of the traversal stack: at most 7 wait per step of three levels, 27 levels.
 const uint TREE_STACK_SIZE = 72u;
 
+const uint TREE_LEAF = 255u;
+
 // A node's tight box and how it is split.
 struct TreeNode {
     vec4 lo_split; // xyz lower corner, w split value
-    vec4 hi_axis;  // xyz upper corner, w bits: split axis, 3 for a leaf
+    vec4 hi_axis;  // xyz upper corner, w bits: split axis, 3 + range axis, TREE_LEAF for a leaf
 };
 
+// Nodes first … first + count - 1 of one level are split.
 struct TreeBuild {
     uint photon_count;
     uint leaf_level;
-    uint root_level;  // each workgroup owns the subtree of one node of this level …
-    uint root_first;  // … counted from this one
-    uint last_level;  // levels root_level … last_level are built by this dispatch
+    uint level;
+    uint first;
+    uint count;
+    uint parts; // a large node's, of TREE_PART photons each but the last
+    uint round; // how often its bracket was tried
+};
+
+// What one subgroup does of work that several share.
+const uint TREE_PART = 2048u;
+
+// A large node while it is split: keys of its photons along `axis` are sought in [lo, hi) and known to be in
+// [least, greatest); each is a value's key and a place.
+struct TreeBracket {
+    uvec4 lo_hi;
+    uvec4 least_greatest;
+    uint axis;
+    uint below;       // keys before lo …
+    uint kept;        // … and in [lo, hi)
+    uint below_least; // keys before `least` …
+    uint within;      // … and in [least, greatest)
+    uint is_settled;
+    uint pad0;
+    uint pad1;
 };
 
 // Boxes made anew after photons moved, nodes first … first + count - 1 of one level.

@@ -33,6 +33,8 @@ const std::vector<std::string> SOME_PARAMETERS{"PARAMETER_COUNT 5u\n#define PARA
 const std::vector<std::string> PARAMETERS{"", SOME_PARAMETERS[0] + "\n#define TREE_RANGES uint[3](0u, 4u, 255u)",
                                           SOME_PARAMETERS[0] + "\n#define PERIODIC_PARAMETERS"};
 const std::vector<std::string> SHELL{"SHELL_SIZE 2u\n#define EACH_KEPT(DO) DO(0) DO(1)"};
+const std::vector<std::string> RANGES{"", "RANGE_ROWS 2u"};
+const std::vector<std::string> SORT{"SORT_SIZE 32", "SORT_SIZE 64", "SORT_SIZE 128"};
 const std::vector<std::string> DESCRIPTORS{"DESCRIPTOR 1", "DESCRIPTOR 2", "DESCRIPTOR 3"};
 
 // Kernels that are not named here take no defines.
@@ -41,10 +43,21 @@ const std::map<std::string, Factors> FACTORS{
     {"estimate/select_irradiance.comp", {KERNELS}},
     {"estimate/trace_eye.comp", {MIRROR, DIELECTRIC, ABSORPTION}},
     {"inspect/count_crossings.comp", {{"", "RAGGED"}}},
+    {"photons/choose_brackets.comp", {RANGES}},
+    {"photons/count_lefts.comp", {RANGES}},
     {"photons/find_neighbors.comp", {CAPACITY, BLOCK, NETWORK, LOAD, STORE, SPACES, SOME_PARAMETERS}},
     {"photons/find_parameter_radius.comp", {SHELL, SOME_PARAMETERS, PERIODIC, SINGLY}},
+    {"photons/find_pivots.comp", {RANGES}},
     {"photons/gather_parameters.comp", {{"PARAMETER_ROWS 2u"}}},
+    {"photons/keep_between.comp", {RANGES}},
+    {"photons/move_parts.comp", {RANGES}},
+    {"photons/order_columns.comp", {RANGES}},
+    {"photons/refit_leaves.comp", {RANGES}},
+    {"photons/refit_nodes.comp", {RANGES}},
+    {"photons/scale_axes.comp", {{"RANGE_ROWS 2u"}, {"RANGE_AXES 7u"}, {"", "SPLIT_POSITIONS"}}},
     {"photons/select_neighbors.comp", {SPACES, SOME_PARAMETERS}},
+    {"photons/split_nodes.comp", {RANGES}},
+    {"photons/split_small_nodes.comp", {RANGES, SORT, {"EACH_KEY(DO) DO(0)"}, {"SORT_NETWORK(DO) DO(0, 1)"}}},
     {"relax/diffuse_flux.comp", {FLAT, PARAMETERS, PERIODIC, SINGLY}},
     {"relax/measure_isotropy.comp", {SHELL, SOME_PARAMETERS, PERIODIC, SINGLY}},
     {"relax/measure_moments.comp", {SHELL, DESCRIPTORS, FLAT, PARAMETERS, PERIODIC, SINGLY}},
