@@ -24,6 +24,7 @@ from gltf import (
     make_glass,
     make_mirror,
 )
+from laid_table import build_table
 
 # From so far up the rim hides only 2.6 % of a radius of floor behind it.
 TOP_CAMERA_HEIGHT = 20.0
@@ -344,6 +345,7 @@ SCENES: dict[str, Callable[[], GltfWriter]] = {
     "bowl": build_bowl,
     "prism": build_prism,
     "lightguide": build_lightguide,
+    "table": build_table,
 }
 
 

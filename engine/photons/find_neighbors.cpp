@@ -40,8 +40,8 @@ Neighbors find_neighbors(gpu::Device& device, Neighborhood neighborhood, const N
     neighborhood.intervals = queries.intervals.empty() ? nullptr : &ordered.intervals;
     const Queries asked = ordered.view();
     const gpu::Buffer radii(device, count * RADIUS_BYTES, "radii of queries");
-    RadiusSettings radius{k};
-    radius.cuts_ties = radius.includes_last = radius.leaves_self_out = true;
+    RadiusSettings radius{k + 1}; // those before the next one
+    radius.cuts_ties = radius.leaves_self_out = true;
     find_radii(device, neighborhood, asked, radius, radii, STAGE, progress);
 
     Neighbors neighbors{gpu::Buffer(device, count * k * sizeof(float), "neighbor ids"),
@@ -55,7 +55,7 @@ Neighbors find_neighbors(gpu::Device& device, Neighborhood neighborhood, const N
     for (std::uint64_t first = 0; first < count; first += part) {
         const std::uint64_t rows = std::min(part, count - first);
         const auto row_first = static_cast<std::uint32_t>(first);
-        const shared::ListSettings push{make_gather_settings(neighborhood, k), row_first, 0, 0, 0};
+        const shared::ListSettings push{make_gather_settings(neighborhood, k + 1), row_first, k, 0, 0};
         run_gather(device, neighborhood, asked, list, std::as_bytes(std::span(&push, 1)), first, rows, STAGE, progress);
         gpu::run_in_chunks(device, STAGE, rows, SORT_GROUP * 16, progress,
                            [&](gpu::Commands& commands, std::uint64_t begin, std::uint64_t size) {

@@ -152,8 +152,9 @@ void try_shell(uint rank, bool is_short) {
     EACH_KEPT(RANK_KEPT)
     bool may_overflow = shell[SHELL_SIZE - 1u] == bits;
 #ifdef CUT_TIES
-    equal = may_overflow ? ALL_TIES / 2u : equal;
-    may_overflow = false;
+    // Where the photon of the rank only gives the radius nothing need be known of those that tie with it.
+    if (may_overflow && !includes_last && nearer + 1u < rank) equal = ALL_TIES / 2u;
+    may_overflow = may_overflow && includes_last;
 #endif
     if (may_overflow) count_ties(r2, nearer);
     else settle_radius(r2, rank, nearer, equal, is_short);

@@ -87,7 +87,7 @@ const float CARRIED_RADIUS = -1.0f;
 struct ListSettings {
     GatherSettings gather;
     uint row_first;
-    uint pad0;
+    uint k; // pairs a row
     uint pad1;
     uint pad2;
 };
