@@ -6,8 +6,8 @@
 #pragma binding coherent TreeBracket brackets
 #pragma binding coherent uint left_counts
 
-Key get_lo(uint node) { return Key(int(brackets[node].lo_hi.x), brackets[node].lo_hi.y); }
-Key get_hi(uint node) { return Key(int(brackets[node].lo_hi.z), brackets[node].lo_hi.w); }
+Key get_lo(uint node) { return Key(int(brackets[node].lo_hi.x), int(brackets[node].lo_hi.y)); }
+Key get_hi(uint node) { return Key(int(brackets[node].lo_hi.z), int(brackets[node].lo_hi.w)); }
 
 // The part of a node that this workgroup takes.
 struct Part {
