@@ -16,7 +16,8 @@ struct Part {
 
 Part find_part() {
     uint node = gl_WorkGroupID.x / build.parts;
-    uint begin = find_first_position(build.photon_count, node, build.level) + gl_WorkGroupID.x % build.parts * TREE_PART;
+    uint begin = find_first_position(build.photon_count, node, build.level);
+    begin += gl_WorkGroupID.x % build.parts * TREE_PART;
     uint end = find_first_position(build.photon_count, node + 1u, build.level);
     return Part(node, min(begin, end), min(begin + TREE_PART, end));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the key of a rank among photons, with one subgroup, and moves photons to its two sides. Keys are counted against
-// several pivots at once until few are left; nothing is stored meanwhile: a store costs as much as several such passes.
+// Finds the key of a rank among photons, with one subgroup, and moves photons to its two sides. Keys are counted
+// against several pivots at once until few are left; nothing is stored meanwhile, as a store costs several such passes.
 // Needs photons/tree_source.glsl. Define: LISTED where the photons are those whose places stand in `candidates`.
 #pragma binding coherent uint candidates
 
@@ -88,8 +88,10 @@ void sample_pivots(Search search) {
     rank_held();
     float scale = float(HELD * WIDTH);
     float wanted = (float(search.rank) + 0.5) / float(n) * scale;
-    for (uint i = 0u; i < PIVOTS; ++i)
-        pivots[i] = find_held(uint(clamp(wanted + SAMPLE_OFFSETS[i] * scale / 32.0, 0.0, scale - 1.0))).value + int(i >= PIVOTS / 2u);
+    for (uint i = 0u; i < PIVOTS; ++i) {
+        float rank = clamp(wanted + SAMPLE_OFFSETS[i] * scale / 32.0, 0.0, scale - 1.0);
+        pivots[i] = find_held(uint(rank)).value + int(i >= PIVOTS / 2u);
+    }
     are_places = false;
 }
 
