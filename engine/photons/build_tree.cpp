@@ -153,6 +153,7 @@ private:
             return;
         m_scales = gpu::Buffer(m_device, (1 + m_tree.range_rows) * sizeof(glm::vec4), "kd-tree scales");
         m_box_keys = gpu::Buffer(m_device, 6 * sizeof(std::uint32_t), "kd-tree boxes");
+        m_emitters = gpu::Buffer(m_device, 2 * sizeof(std::uint32_t), "emitters");
     }
 
     // Photons of a level are read here; those of the last end in tree.positions. What is filled last serves before:
@@ -183,6 +184,7 @@ private:
 
     void number_photons() {
         m_batches->add(0).fill(m_box_keys, ~0u);
+        m_batches->add(0).fill(m_emitters, ~0u);
         const std::uint64_t largest = std::uint64_t{m_device.limits().max_group_count} * shared::TREE_PART;
         for (std::uint64_t first = 0; first < m_tree.count; first += largest) {
             const struct {
@@ -193,7 +195,8 @@ private:
                 .dispatch({"photons/number_photons.comp", 0, {}, {}},
                           {{"position_emitter", m_photons.position_emitter},
                            {"tree_positions", source(0)},
-                           {"box_keys", m_box_keys}},
+                           {"box_keys", m_box_keys},
+                           {"emitters", m_emitters}},
                           push, count_parts(push.count) * m_device.limits().subgroup_size);
         }
         read_boxes(0);
@@ -248,8 +251,8 @@ private:
             const std::uint64_t fitting = m_batches->fit(m_tree.count, ORDER_WORK * static_cast<double>(m_tree.count));
             const std::uint64_t count = std::min(
                 {fitting, m_tree.count - first, std::uint64_t{m_device.limits().max_group_count} * ORDER_GROUP});
-            order_columns(m_batches->add(ORDER_WORK * static_cast<double>(count)), m_photons, m_ranges, m_tree, first,
-                          count);
+            order_columns(m_batches->add(ORDER_WORK * static_cast<double>(count)), m_photons, m_ranges, m_tree, m_emitters,
+                          first, count);
             m_batches->run_if_full();
             first += count;
         }
@@ -305,7 +308,7 @@ private:
     std::optional<Batches> m_batches;
     std::vector<std::string> m_defines;
     KdTree m_tree;
-    gpu::Buffer m_scales, m_box_keys;
+    gpu::Buffer m_scales, m_box_keys, m_emitters;
 };
 
 } // namespace

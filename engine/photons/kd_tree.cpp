@@ -22,7 +22,7 @@ std::vector<std::string> define_rows(std::uint32_t rows) {
 } // namespace
 
 void order_columns(gpu::Commands& commands, const PhotonMap& photons, const RangeRows* ranges, const KdTree& tree,
-                   std::uint64_t first, std::uint64_t count) {
+                   const gpu::Buffer& emitters, std::uint64_t first, std::uint64_t count) {
     const struct {
         std::uint32_t first, count;
     } push{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count)};
@@ -31,6 +31,7 @@ void order_columns(gpu::Commands& commands, const PhotonMap& photons, const Rang
                        {"position_emitter", photons.position_emitter},
                        {"range_rows", ranges ? ranges->values : tree.positions},
                        {"tree_positions", tree.positions},
+                       {"emitters", emitters},
                        {"tree_normals", tree.normals},
                        {"tree_rows", choose_buffer(tree.rows, tree.normals)}},
                       push, count);

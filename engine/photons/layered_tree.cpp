@@ -144,9 +144,10 @@ LayeredTree build_layered_tree(gpu::Device& device, const PhotonMap& photons, co
     tree.positions = gpu::make_buffer(device, positions, "kd-tree positions");
     tree.normals = gpu::Buffer(device, photons.count * sizeof(glm::vec4), "kd-tree normals");
     tree.normal_boxes = gpu::Buffer(device, nodes.boxes.size() * 2 * sizeof(glm::vec4), "kd-tree boxes of normals");
+    const gpu::Buffer emitters = gpu::make_buffer(device, std::vector<std::uint32_t>{0, 0}, "emitters"); // any
     gpu::run_in_chunks(device, STAGE, tree.count, 1 << 18, progress,
                        [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
-                           order_columns(commands, photons, nullptr, tree, first, count);
+                           order_columns(commands, photons, nullptr, tree, emitters, first, count);
                        });
     bound_tree(device, tree, STAGE, false);
     return layered;

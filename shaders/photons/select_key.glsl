@@ -68,18 +68,18 @@ struct Range {
     uint below, behind;
 };
 
-const uint PIVOTS = 8u;
+const uint PIVOTS = 6u;
 int pivots[PIVOTS]; // values; where few values are left, places of photons with the value of `lo`
 bool are_places;
 uint counts[PIVOTS];
 
 // Of 32 sampled keys, those so far from the rank sought: few deviations of a random sample. The greater ones bound their
 // value from above, so that a value many photons have is found at once.
-const float SAMPLE_OFFSETS[PIVOTS] = float[](-8.0, -5.0, -3.0, -1.0, 1.0, 3.0, 5.0, 8.0);
+const float SAMPLE_OFFSETS[PIVOTS] = float[](-6.0, -2.5, -0.7, 0.7, 2.5, 6.0);
 // Between two keys: evenly, so that the distance between them shrinks for certain, and about where the one sought is
 // when keys are evenly dense.
-const float EVEN_SHARES[PIVOTS / 2u] = float[](0.2, 0.4, 0.6, 0.8);
-const float NEAR_OFFSETS[PIVOTS / 2u] = float[](-0.12, -0.03, 0.03, 0.12);
+const float EVEN_SHARES[PIVOTS / 2u] = float[](0.25, 0.5, 0.75);
+const float NEAR_OFFSETS[PIVOTS / 2u] = float[](-0.08, 0.0, 0.08);
 
 void sample_pivots(Search search) {
     uint n = search.end - search.first;
@@ -166,7 +166,7 @@ bool hold_range(Search search, Range range) {
 // The key sought; GREATEST if it takes more than that many passes over the items.
 Key find_ranked(Search search, uint most_passes) {
     Range range = Range(LEAST, GREATEST, 0u, search.end - search.first);
-    uint few = HELD * WIDTH / 2u;
+    uint few = HELD * WIDTH * 3u / 4u;
     uint passes = 0u;
     bool is_held = false;
     if (range.behind > HELD * WIDTH) {

@@ -6,7 +6,7 @@
 #include "photons/select_key.glsl"
 #include "photons/choose_axis.glsl"
 
-// Each shrinks the distance of values, then of places, to a fifth at least.
+// Each shrinks the distance of values, then of places, to a quarter at least.
 const uint MOST_PASSES = 26u;
 
 void main() {
