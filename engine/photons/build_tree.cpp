@@ -18,8 +18,11 @@ constexpr const char* STAGE = "build tree";
 // Nodes of more photons are split by several subgroups. One subgroup may pass over a node 26 times (split_nodes.comp)
 // and then has loop turns left (shaders/shared/turns.glsl).
 constexpr std::uint64_t LARGE_NODE_PHOTONS = 16384, LARGE_NODE_BLOCKS = 2048;
-// The largest nodes that an invocation sorts alone.
-constexpr std::uint32_t SMALL_NODE_PHOTONS = 128;
+// The largest nodes that an invocation sorts alone; with ranges fewer, as its long kernel takes the driver seconds to
+// compile, and there is one for each number of rows.
+constexpr std::uint32_t SMALL_NODE_PHOTONS = 128, SMALL_NODE_PHOTONS_WITH_RANGES = 64;
+// Copying a photon's columns costs as much as so many levels: they stand anywhere.
+constexpr double ORDER_WORK = 3;
 // Photons, levels counted, of the first batch; later ones follow the device's pace.
 constexpr double FIRST_BATCH = 1 << 19, SMALLEST_BATCH = 1 << 16, LARGEST_BATCH = 1 << 28;
 
@@ -51,6 +54,11 @@ public:
         }
         m_work += work;
         return *m_commands;
+    }
+
+    void finish() {
+        run();
+        m_progress.report(STAGE, 1.0);
     }
 
     void run_if_full() {
@@ -103,8 +111,7 @@ public:
         m_tree.count = photons.count;
         m_tree.leaf_level = find_leaf_level(photons.count);
         m_tree.range_rows = ranges ? ranges->count_rows() : 0;
-        const auto rows = static_cast<double>(4 + m_tree.range_rows);
-        m_batches.emplace(device, progress, static_cast<double>(photons.count) * (m_tree.leaf_level + rows));
+        m_batches.emplace(device, progress, static_cast<double>(photons.count) * (m_tree.leaf_level + 1 + ORDER_WORK));
         if (ranges)
             m_defines.push_back("RANGE_ROWS " + std::to_string(m_tree.range_rows) + "u");
         allocate();
@@ -118,13 +125,13 @@ public:
             const std::uint64_t largest = find_largest_node(m_tree.count, level);
             if (largest > std::min(LARGE_NODE_PHOTONS, LARGE_NODE_BLOCKS * m_device.limits().subgroup_size))
                 split_large_nodes(level);
-            else if (largest > SMALL_NODE_PHOTONS)
+            else if (largest > (m_ranges ? SMALL_NODE_PHOTONS_WITH_RANGES : SMALL_NODE_PHOTONS))
                 split_nodes(level, {"photons/split_nodes.comp", 0, m_defines, {}}, m_device.limits().subgroup_size);
             else
-                split_nodes(level, name_small_kernel(std::max(32u, std::bit_ceil(static_cast<std::uint32_t>(largest)))), 1);
+                split_nodes(level, name_small_kernel(static_cast<std::uint32_t>(largest)), 1);
         }
-        m_batches->run();
-        order_columns(m_device, m_photons, m_ranges, m_tree);
+        copy_columns();
+        m_batches->finish();
         bound_tree(m_device, m_tree, STAGE, true);
         return std::move(m_tree);
     }
@@ -146,6 +153,7 @@ private:
             return;
         m_scales = gpu::Buffer(m_device, (1 + m_tree.range_rows) * sizeof(glm::vec4), "kd-tree scales");
         m_box_keys = gpu::Buffer(m_device, 6 * sizeof(std::uint32_t), "kd-tree boxes");
+        m_emitters = gpu::Buffer(m_device, 2 * sizeof(std::uint32_t), "emitters");
     }
 
     // Photons of a level are read here; those of the last end in tree.positions. What is filled last serves before:
@@ -165,7 +173,8 @@ private:
                 0};
     }
 
-    gpu::KernelSource name_small_kernel(std::uint32_t size) const {
+    gpu::KernelSource name_small_kernel(std::uint32_t largest_node) const {
+        const std::uint32_t size = std::max(32u, std::bit_ceil(largest_node));
         gpu::KernelSource kernel{"photons/split_small_nodes.comp", 64, m_defines, {}};
         kernel.defines.push_back("SORT_SIZE " + std::to_string(size));
         kernel.defines.push_back("EACH_KEY(DO)" + list_keys(size));
@@ -175,6 +184,7 @@ private:
 
     void number_photons() {
         m_batches->add(0).fill(m_box_keys, ~0u);
+        m_batches->add(0).fill(m_emitters, ~0u);
         const std::uint64_t largest = std::uint64_t{m_device.limits().max_group_count} * shared::TREE_PART;
         for (std::uint64_t first = 0; first < m_tree.count; first += largest) {
             const struct {
@@ -185,7 +195,8 @@ private:
                 .dispatch({"photons/number_photons.comp", 0, {}, {}},
                           {{"position_emitter", m_photons.position_emitter},
                            {"tree_positions", source(0)},
-                           {"box_keys", m_box_keys}},
+                           {"box_keys", m_box_keys},
+                           {"emitters", m_emitters}},
                           push, count_parts(push.count) * m_device.limits().subgroup_size);
         }
         read_boxes(0);
@@ -230,6 +241,18 @@ private:
                            {"candidates", m_tree.normal_boxes},
                            {"tree_nodes", m_tree.nodes}},
                           make_push(level, first, count), count * invocations);
+            m_batches->run_if_full();
+            first += count;
+        }
+    }
+
+    void copy_columns() {
+        for (std::uint64_t first = 0; first < m_tree.count;) {
+            const std::uint64_t fitting = m_batches->fit(m_tree.count, ORDER_WORK * static_cast<double>(m_tree.count));
+            const std::uint64_t count = std::min(
+                {fitting, m_tree.count - first, std::uint64_t{m_device.limits().max_group_count} * ORDER_GROUP});
+            order_columns(m_batches->add(ORDER_WORK * static_cast<double>(count)), m_photons, m_ranges, m_tree, m_emitters,
+                          first, count);
             m_batches->run_if_full();
             first += count;
         }
@@ -285,7 +308,7 @@ private:
     std::optional<Batches> m_batches;
     std::vector<std::string> m_defines;
     KdTree m_tree;
-    gpu::Buffer m_scales, m_box_keys;
+    gpu::Buffer m_scales, m_box_keys, m_emitters;
 };
 
 } // namespace

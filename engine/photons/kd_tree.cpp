@@ -21,23 +21,20 @@ std::vector<std::string> define_rows(std::uint32_t rows) {
 
 } // namespace
 
-void order_columns(gpu::Device& device, const PhotonMap& photons, const RangeRows* ranges, const KdTree& tree,
-                   const Progress& progress) {
-    const gpu::KernelSource kernel{"photons/order_columns.comp", 64, define_rows(ranges ? tree.range_rows : 0), {}};
-    gpu::run_in_chunks(device, "build tree", photons.count, 1 << 18, progress,
-                       [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
-                           const struct {
-                               std::uint32_t first, count;
-                           } push{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count)};
-                           commands.dispatch(kernel,
-                                             {{"normal_index", photons.normal_index},
-                                              {"position_emitter", photons.position_emitter},
-                                              {"range_rows", ranges ? ranges->values : tree.positions},
-                                              {"tree_positions", tree.positions},
-                                              {"tree_normals", tree.normals},
-                                              {"tree_rows", choose_buffer(tree.rows, tree.normals)}},
-                                             push, count);
-                       });
+void order_columns(gpu::Commands& commands, const PhotonMap& photons, const RangeRows* ranges, const KdTree& tree,
+                   const gpu::Buffer& emitters, std::uint64_t first, std::uint64_t count) {
+    const struct {
+        std::uint32_t first, count;
+    } push{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count)};
+    commands.dispatch({"photons/order_columns.comp", ORDER_GROUP, define_rows(ranges ? tree.range_rows : 0), {}},
+                      {{"normal_index", photons.normal_index},
+                       {"position_emitter", photons.position_emitter},
+                       {"range_rows", ranges ? ranges->values : tree.positions},
+                       {"tree_positions", tree.positions},
+                       {"emitters", emitters},
+                       {"tree_normals", tree.normals},
+                       {"tree_rows", choose_buffer(tree.rows, tree.normals)}},
+                      push, count);
 }
 
 KdTree copy_tree(gpu::Device& device, const KdTree& tree) {

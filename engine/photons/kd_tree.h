@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/progress.h"
+#include "gpu/commands.h"
 #include "photons/photon_map.h"
 #include "shared/photons.h"
 
@@ -47,9 +48,12 @@ KdTree build_tree(gpu::Device& device, const PhotonMap& photons, const Progress&
 KdTree build_tree(gpu::Device& device, const PhotonMap& photons, const RangeRows& ranges, TreeAxes axes,
                   const Progress& progress = {});
 
-// Fills tree.normals and, with ranges, tree.rows from the map, in the order of tree.positions.
-void order_columns(gpu::Device& device, const PhotonMap& photons, const RangeRows* ranges, const KdTree& tree,
-                   const Progress& progress = {});
+// Records the filling of tree.normals and, with ranges, of tree.rows from the map, in the order of tree.positions, for
+// `count` photons: no more than workgroups of ORDER_GROUP that the device allows. `emitters` holds the least emitter and
+// the complement of the greatest.
+constexpr std::uint32_t ORDER_GROUP = 64;
+void order_columns(gpu::Commands& commands, const PhotonMap& photons, const RangeRows* ranges, const KdTree& tree,
+                   const gpu::Buffer& emitters, std::uint64_t first, std::uint64_t count);
 
 // Makes all boxes tight, and with ranges those too.
 void bound_tree(gpu::Device& device, const KdTree& tree, const std::string& stage, bool with_ranges);

@@ -9,12 +9,14 @@
 
 // Samples a node, at most; what a subgroup sorts out in little time.
 const uint LARGEST_SAMPLE = 4096u;
+// Photons read for it: where few are within the limits many are passed over.
+const uint MOST_READ = 1u << 17u; // twice; shared/turns.glsl
 // Deviations of a random sample's median between which it is sought.
 const float DEVIATIONS = 4.0;
 const uint MOST_PASSES = 26u; // as in split_nodes.comp
 
 TreeBracket start_bracket(uint heap, uint first, uint n) {
-    uvec4 all = uvec4(uint(LEAST.value), LEAST.place, uint(GREATEST.value), GREATEST.place);
+    uvec4 all = uvec4(uint(LEAST.value), uint(LEAST.place), uint(GREATEST.value), uint(GREATEST.place));
     return TreeBracket(all, all, choose_axis_of(heap, first, n), 0u, 0u, 0u, n, 0u, 0u, 0u);
 }
 
@@ -44,8 +46,8 @@ void keep(uint place, bool is_kept, uint first, inout uint kept) {
 
 // Evenly spaced photons' keys between the limits become candidates.
 uint sample_keys(uint first, uint n, TreeBracket bracket, uint samples) {
-    Key least = Key(int(bracket.least_greatest.x), bracket.least_greatest.y);
-    Key greatest = Key(int(bracket.least_greatest.z), bracket.least_greatest.w);
+    Key least = Key(int(bracket.least_greatest.x), int(bracket.least_greatest.y));
+    Key greatest = Key(int(bracket.least_greatest.z), int(bracket.least_greatest.w));
     uint kept = 0u;
     for (uint i = 0u; i < samples; i += WIDTH) {
         // Other rounds take other photons.
@@ -59,7 +61,7 @@ uint sample_keys(uint first, uint n, TreeBracket bracket, uint samples) {
 }
 
 Key find_sample(uint first, uint n, uint kept, uint rank, uint axis) {
-    return find_ranked(Search(first, first + kept, axis, rank, first, first + n), MOST_PASSES);
+    return find_ranked(Search(first, first + kept, axis, rank, int(first), int(first + n)), MOST_PASSES);
 }
 
 void main() {
@@ -72,17 +74,17 @@ void main() {
     if (build.round == 0u) bracket = start_bracket((1u << build.level) + node, first, n);
     else narrow(bracket, rank);
     bracket.lo_hi = bracket.least_greatest;
-    uint samples = min(LARGEST_SAMPLE, 1u << findMSB(n / 16u));
+    uint samples = 1u << findMSB(min(n / 16u, min(LARGEST_SAMPLE * (n / max(bracket.within, 1u)), MOST_READ)));
     uint kept = sample_keys(first, n, bracket, samples);
     float wanted = (float(rank - bracket.below_least) + 0.5) / float(bracket.within) * float(kept);
     float margin = DEVIATIONS * 0.5 * sqrt(float(kept)) + 1.0;
     if (wanted - margin >= 0.0) {
         Key lo = find_sample(first, n, kept, uint(wanted - margin), bracket.axis);
-        bracket.lo_hi.xy = uvec2(uint(lo.value), lo.place);
+        bracket.lo_hi.xy = uvec2(uint(lo.value), uint(lo.place));
     }
     if (wanted + margin < float(kept)) {
         Key hi = find_sample(first, n, kept, uint(wanted + margin), bracket.axis);
-        bracket.lo_hi.zw = uvec2(uint(hi.value), hi.place);
+        bracket.lo_hi.zw = uvec2(uint(hi.value), uint(hi.place));
     }
     bracket.below = bracket.kept = 0u;
     if (LANE == 0u) brackets[node] = bracket;

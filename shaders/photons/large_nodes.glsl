@@ -6,8 +6,8 @@
 #pragma binding coherent TreeBracket brackets
 #pragma binding coherent uint left_counts
 
-Key get_lo(uint node) { return Key(int(brackets[node].lo_hi.x), brackets[node].lo_hi.y); }
-Key get_hi(uint node) { return Key(int(brackets[node].lo_hi.z), brackets[node].lo_hi.w); }
+Key get_lo(uint node) { return Key(int(brackets[node].lo_hi.x), int(brackets[node].lo_hi.y)); }
+Key get_hi(uint node) { return Key(int(brackets[node].lo_hi.z), int(brackets[node].lo_hi.w)); }
 
 // The part of a node that this workgroup takes.
 struct Part {
@@ -16,7 +16,8 @@ struct Part {
 
 Part find_part() {
     uint node = gl_WorkGroupID.x / build.parts;
-    uint begin = find_first_position(build.photon_count, node, build.level) + gl_WorkGroupID.x % build.parts * TREE_PART;
+    uint begin = find_first_position(build.photon_count, node, build.level);
+    begin += gl_WorkGroupID.x % build.parts * TREE_PART;
     uint end = find_first_position(build.photon_count, node + 1u, build.level);
     return Part(node, min(begin, end), min(begin + TREE_PART, end));
 }

@@ -7,6 +7,7 @@
 
 void main() {
     Part part = find_part();
+    if (brackets[part.node].is_settled == 0u) return; // without its median halves would not fit
     uint begin = find_first_position(build.photon_count, part.node, build.level);
     uint lefts = 0u;
     for (uint i = part.node * build.parts + LANE; i < gl_WorkGroupID.x; i += WIDTH) lefts += left_counts[i];

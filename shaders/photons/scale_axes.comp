@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much the spread along each axis counts when a tree with ranges is split: one subgroup, over evenly spaced photons.
+// How much the spread along each axis counts when a tree with ranges is split; one subgroup, from evenly spaced photons.
 // Inputs: source, range_rows. Output: axis_scales (vec4 of the positions', then a vec4 a row).
 // Defines: RANGE_ROWS, RANGE_AXES, SPLIT_POSITIONS where nodes are split along positions too.
 #include "shared/prelude.glsl"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the key of a rank among photons, with one subgroup, and moves photons to its two sides. Keys are counted against
-// several pivots at once until few are left; nothing is stored meanwhile: a store costs as much as several such passes.
+// Finds the key of a rank among photons, with one subgroup, and moves photons to its two sides. Keys are counted
+// against several pivots at once until few are left; nothing is stored meanwhile, as a store costs several such passes.
 // Needs photons/tree_source.glsl. Define: LISTED where the photons are those whose places stand in `candidates`.
 #pragma binding coherent uint candidates
 
@@ -10,15 +10,15 @@
 // In order of values, then of places in `source`, which within a node are in order of photon ids.
 struct Key {
     int value;
-    uint place;
+    int place; // signed: so compared in one instruction
 };
 
-const Key LEAST = Key(LEAST_KEY, 0u);
-const Key GREATEST = Key(GREATEST_KEY, 0xffffffffu);
+const Key LEAST = Key(LEAST_KEY, 0);
+const Key GREATEST = Key(GREATEST_KEY, 0x7fffffff);
 
 bool is_less(Key a, Key b) { return a.value < b.value || (a.value == b.value && a.place < b.place); }
 
-Key read_source(uint place, uint axis) { return Key(find_key(source_at(place), axis), place); }
+Key read_source(uint place, uint axis) { return Key(find_key(source_at(place), axis), int(place)); }
 
 #ifdef LISTED
 Key read_item(uint i, uint axis) { return read_source(candidates[i], axis); }
@@ -59,7 +59,7 @@ Key find_held(uint rank) {
 struct Search {
     uint first, end;
     uint axis, rank;
-    uint place_first, place_end;
+    int place_first, place_end;
 };
 
 // The key sought is in [lo, hi); keys before lo, and before hi.
@@ -68,16 +68,18 @@ struct Range {
     uint below, behind;
 };
 
-const uint PIVOTS = 8u;
-Key pivots[PIVOTS];
+const uint PIVOTS = 6u;
+int pivots[PIVOTS]; // values; where few values are left, places of photons with the value of `lo`
+bool are_places;
 uint counts[PIVOTS];
 
-// Of 32 sampled keys, those so far from the rank sought: few deviations of a random sample.
-const float SAMPLE_OFFSETS[PIVOTS] = float[](-8.0, -5.0, -3.0, -1.0, 1.0, 3.0, 5.0, 8.0);
+// Of 32 sampled keys, those so far from the rank sought: few deviations of a random sample. The greater ones bound their
+// value from above, so that a value many photons have is found at once.
+const float SAMPLE_OFFSETS[PIVOTS] = float[](-6.0, -2.5, -0.7, 0.7, 2.5, 6.0);
 // Between two keys: evenly, so that the distance between them shrinks for certain, and about where the one sought is
 // when keys are evenly dense.
-const float EVEN_SHARES[PIVOTS / 2u] = float[](0.2, 0.4, 0.6, 0.8);
-const float NEAR_OFFSETS[PIVOTS / 2u] = float[](-0.12, -0.03, 0.03, 0.12);
+const float EVEN_SHARES[PIVOTS / 2u] = float[](0.25, 0.5, 0.75);
+const float NEAR_OFFSETS[PIVOTS / 2u] = float[](-0.08, 0.0, 0.08);
 
 void sample_pivots(Search search) {
     uint n = search.end - search.first;
@@ -85,9 +87,12 @@ void sample_pivots(Search search) {
         held[i] = read_item(search.first + find_spaced(n, i * WIDTH + LANE, HELD * WIDTH), search.axis);
     rank_held();
     float scale = float(HELD * WIDTH);
-    float wanted = (float(search.rank) + 0.5) / float(n) * scale - 0.5;
-    for (uint i = 0u; i < PIVOTS; ++i)
-        pivots[i] = find_held(uint(clamp(wanted + SAMPLE_OFFSETS[i] * scale / 32.0 + 0.5, 0.0, scale - 1.0)));
+    float wanted = (float(search.rank) + 0.5) / float(n) * scale;
+    for (uint i = 0u; i < PIVOTS; ++i) {
+        float rank = clamp(wanted + SAMPLE_OFFSETS[i] * scale / 32.0, 0.0, scale - 1.0);
+        pivots[i] = find_held(uint(rank)).value + int(i >= PIVOTS / 2u);
+    }
+    are_places = false;
 }
 
 float get_share(uint i, float expected) {
@@ -100,32 +105,46 @@ uint interpolate(uint span, float share) { return clamp(uint(float(span) * clamp
 void interpolate_pivots(Search search, Range range) {
     float expected = (float(search.rank - range.below) + 0.5) / float(range.behind - range.below);
     uint span = uint(range.hi.value) - uint(range.lo.value);
-    uint place = max(range.lo.place, search.place_first);
-    uint places = (span == 0u ? min(range.hi.place, search.place_end) : search.place_end) - place;
+    int place = max(range.lo.place, search.place_first);
+    uint places = uint((span == 0u ? min(range.hi.place, search.place_end) : search.place_end) - place);
+    are_places = span < 2u;
     for (uint i = 0u; i < PIVOTS; ++i) {
         float share = get_share(i, expected);
-        if (span >= 2u) pivots[i] = Key(int(uint(range.lo.value) + interpolate(span, share)), 0u);
-        else pivots[i] = Key(range.lo.value, place + (places < 2u ? 1u : interpolate(places, share)));
+        if (are_places) pivots[i] = place + (places < 2u ? 1 : int(interpolate(places, share)));
+        else pivots[i] = int(uint(range.lo.value) + interpolate(span, share));
     }
-    if (span == 1u) pivots[0] = Key(range.hi.value, 0u);
+    if (span == 1u) pivots[0] = GREATEST_KEY; // behind all with the value of lo
 }
 
-void count_below_pivots(Search search) {
+// What is compared with the pivots.
+int project(Key key, int value) {
+    int place = key.value < value ? LEAST_KEY : (key.value > value ? GREATEST_KEY : key.place);
+    return are_places ? place : key.value;
+}
+
+Key get_pivot(uint i, Range range) {
+    if (!are_places) return Key(pivots[i], 0);
+    return pivots[i] == GREATEST_KEY ? Key(range.hi.value, 0) : Key(range.lo.value, pivots[i]);
+}
+
+void count_below_pivots(Search search, Range range) {
     for (uint i = 0u; i < PIVOTS; ++i) counts[i] = 0u;
     for (uint item = search.first + LANE; item < search.end; item += WIDTH) {
-        Key key = read_item(item, search.axis);
-        for (uint i = 0u; i < PIVOTS; ++i) counts[i] += uint(is_less(key, pivots[i]));
+        int key = project(read_item(item, search.axis), range.lo.value);
+        for (uint i = 0u; i < PIVOTS; ++i) counts[i] += uint(key < pivots[i]);
     }
     for (uint i = 0u; i < PIVOTS; ++i) counts[i] = subgroupAdd(counts[i]);
 }
 
 void narrow_range(uint rank, inout Range range) {
+    Range old = range;
     for (uint i = 0u; i < PIVOTS; ++i) {
-        bool is_lo = counts[i] <= rank && is_less(range.lo, pivots[i]);
-        bool is_hi = counts[i] > rank && is_less(pivots[i], range.hi);
-        if (is_lo) range.lo = pivots[i];
+        Key pivot = get_pivot(i, old);
+        bool is_lo = counts[i] <= rank && is_less(range.lo, pivot);
+        bool is_hi = counts[i] > rank && is_less(pivot, range.hi);
+        if (is_lo) range.lo = pivot;
         if (is_lo) range.below = counts[i];
-        if (is_hi) range.hi = pivots[i];
+        if (is_hi) range.hi = pivot;
         if (is_hi) range.behind = counts[i];
     }
 }
@@ -147,12 +166,12 @@ bool hold_range(Search search, Range range) {
 // The key sought; GREATEST if it takes more than that many passes over the items.
 Key find_ranked(Search search, uint most_passes) {
     Range range = Range(LEAST, GREATEST, 0u, search.end - search.first);
-    uint few = HELD * WIDTH / 2u;
+    uint few = HELD * WIDTH * 3u / 4u;
     uint passes = 0u;
     bool is_held = false;
     if (range.behind > HELD * WIDTH) {
         sample_pivots(search);
-        count_below_pivots(search);
+        count_below_pivots(search, range);
         narrow_range(search.rank, range);
     }
     while (!is_held && passes < most_passes) {
@@ -163,7 +182,7 @@ Key find_ranked(Search search, uint most_passes) {
             few = HELD;
         } else {
             interpolate_pivots(search, range);
-            count_below_pivots(search);
+            count_below_pivots(search, range);
             narrow_range(search.rank, range);
         }
     }
@@ -176,7 +195,7 @@ void move_photons(uint first, uint end, uint axis, Key pivot, inout uint left, i
     for (uint i = first; i < end; i += WIDTH) {
         uint place = min(i + LANE, end - 1u);
         vec4 photon = source_at(place);
-        bool is_below = is_less(Key(find_key(photon, axis), place), pivot);
+        bool is_below = is_less(Key(find_key(photon, axis), int(place)), pivot);
         bool is_valid = i + LANE < end;
         uvec4 ballot = subgroupBallot(is_valid && is_below);
         uint lefts = subgroupBallotExclusiveBitCount(ballot);

@@ -6,7 +6,7 @@
 #include "photons/select_key.glsl"
 #include "photons/choose_axis.glsl"
 
-// Each shrinks the distance of values, then of places, to a fifth at least.
+// Each shrinks the distance of values, then of places, to a quarter at least.
 const uint MOST_PASSES = 26u;
 
 void main() {
@@ -17,7 +17,7 @@ void main() {
     uint end = find_first_position(build.photon_count, node + 1u, build.level);
     uint split = find_first_position(build.photon_count, 2u * node + 1u, build.level + 1u);
     uint axis = choose_axis_of(heap, first, end - first);
-    Key pivot = find_ranked(Search(first, end, axis, split - first, first, end), MOST_PASSES);
+    Key pivot = find_ranked(Search(first, end, axis, split - first, int(first), int(end)), MOST_PASSES);
     Halves halves = start_halves();
     uint left = first, right = split;
     move_photons(first, end, axis, pivot, left, right, halves);

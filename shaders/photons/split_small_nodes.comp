@@ -8,7 +8,7 @@
 #include "photons/node_spread.glsl"
 #endif
 
-#define LOAD_KEY(i) keys[i] = i < n ? find_key(source_at(first + i), axis) : GREATEST_KEY;
+#define LOAD_KEY(i) keys[i] = i < n ? find_key(source_at(first + min(i, n - 1u)), axis) : GREATEST_KEY;
 #define SORT_KEYS(a, b) { int least = min(keys[a], keys[b]); keys[b] = max(keys[a], keys[b]); keys[a] = least; }
 #define COUNT_KEY(i) below += uint(keys[i] < pivot);
 

@@ -37,13 +37,14 @@ void upload(Photons& photons) {
     photons.ranges.values = gpu::make_buffer(device, rows, "ranges");
 }
 
-Photons draw_photons(std::size_t count, std::uint32_t axes, unsigned seed = 1) {
-    std::mt19937 random(seed);
+Photons draw_photons(std::size_t count, std::uint32_t axes, std::uint32_t emitter_count = 1) {
+    std::mt19937 random(1);
     std::normal_distribution<float> normal;
     Photons photons;
     photons.ranges.axis_count = axes;
     for (std::size_t i = 0; i < count; ++i) {
-        photons.positions.emplace_back(normal(random), 0.3f * normal(random), normal(random), 0.0f);
+        photons.positions.emplace_back(normal(random), 0.3f * normal(random), normal(random),
+                                       std::bit_cast<float>(static_cast<std::uint32_t>(5 + random() % emitter_count)));
         glm::vec3 n(normal(random), normal(random), normal(random));
         n /= std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z) + 1e-6f;
         photons.normals.emplace_back(n, 0.0f);
@@ -73,8 +74,9 @@ Read read(const KdTree& tree) {
             tree.ranges.read<glm::vec4>(2 * nodes * tree.range_rows)};
 }
 
-std::uint32_t get_id(const glm::vec4& position) {
-    return std::bit_cast<std::uint32_t>(position.w);
+// The integer in the last component: a photon's id or emitter.
+std::uint32_t get_id(const glm::vec4& row) {
+    return std::bit_cast<std::uint32_t>(row.w);
 }
 
 struct Bounds {
@@ -142,6 +144,7 @@ Read expect_sound(Photons& photons, TreeAxes axes) {
         ids.insert(id);
         EXPECT_EQ(glm::vec3(read_back.positions[i]), glm::vec3(photons.positions.at(id)));
         EXPECT_EQ(glm::vec3(read_back.normals[i]), glm::vec3(photons.normals.at(id)));
+        EXPECT_EQ(get_id(read_back.normals[i]), get_id(photons.positions.at(id))) << "emitter";
         for (std::size_t axis = 0; axis < photons.ranges.axis_count; ++axis)
             EXPECT_EQ(read_back.rows[i * tree.range_rows + axis / 4][static_cast<int>(axis % 4)],
                       photons.values.at(id)[axis]);
@@ -166,7 +169,7 @@ INSTANTIATE_TEST_SUITE_P(, RangeTreeOfCount, ::testing::Values(0, 1, 8, 9, 16, 1
 
 TEST_P(RangeTreeOfCount, is_sound) {
     for (const TreeAxes axes : {TreeAxes::both, TreeAxes::ranges}) {
-        Photons photons = draw_photons(GetParam(), 5);
+        Photons photons = draw_photons(GetParam(), 5, axes == TreeAxes::both ? 1 : 3); // emitters
         expect_sound(photons, axes);
     }
 }

@@ -116,12 +116,12 @@ Points draw_points(std::size_t count, unsigned seed, float size = 1.0f) {
 }
 
 class TreeOfCount : public ::testing::TestWithParam<std::size_t> {};
-// Around the size of one leaf, of two and of four; then past the level from which whole subtrees are built at once.
+// Around the size of one leaf, of two and of four; then past what an invocation and what a subgroup splits alone.
 // llvmpipe ends all loops of an invocation after 65,535 rounds together, without a word: the last two would need more
 // if one subgroup of 8 passed over all photons a few times.
 INSTANTIATE_TEST_SUITE_P(, TreeOfCount,
-                         ::testing::Values(0, 1, 2, 31, 32, 33, 63, 64, 65, 127, 129, 1000, 8191, 100'000, 200'000,
-                                           600'000),
+                         ::testing::Values(0, 1, 2, 31, 32, 33, 63, 64, 65, 127, 129, 1000, 8191, 16'384, 16'385,
+                                           100'000, 200'000, 600'000),
                          ::testing::PrintToStringParamName());
 
 TEST_P(TreeOfCount, equals_the_twin) {
@@ -164,8 +164,46 @@ TEST(Tree, of_a_lattice_full_of_ties_equals_the_twin) {
     expect_twin(points);
 }
 
+// Nodes that several subgroups split (more than 16,384 photons).
+TEST(Tree, of_large_nodes_full_of_ties_equals_the_twin) {
+    Points points = draw_points(150'000, 11, 2.0f);
+    for (glm::vec3& point : points)
+        for (int axis = 0; axis < 3; ++axis)
+            point[axis] = std::floor(point[axis]);
+    expect_twin(points);
+}
+
+TEST(Tree, of_many_coincident_photons_equals_the_twin) {
+    Points points(150'000, glm::vec3(0.5f));
+    expect_twin(points);
+    points[77] = glm::vec3(-7.0f, 100.0f, 3.0f);
+    expect_twin(points);
+}
+
+TEST(Tree, of_a_periodic_order_that_samples_meet_in_step_equals_the_twin) {
+    Points points = draw_points(200'000, 12);
+    for (std::size_t i = 0; i < points.size(); ++i)
+        points[i].x = static_cast<float>(i % 64) + (i % 16 == 8 ? 1000.0f : 0.0f);
+    expect_twin(points);
+}
+
+// A large node's 4,096 samples, every 48th photon from the 24th on, all lie where the median is not: it is sought again.
+TEST(Tree, whose_samples_miss_the_median_equals_the_twin) {
+    Points points = draw_points(std::size_t{4096} * 48, 14);
+    for (std::size_t i = 24; i < points.size(); i += 48)
+        points[i].x += 100.0f;
+    expect_twin(points);
+}
+
+TEST(Tree, of_heavy_tails_equals_the_twin) {
+    Points points = draw_points(150'000, 13);
+    for (glm::vec3& point : points)
+        point.x = std::copysign(std::exp(60.0f * point.x * point.x), point.x);
+    expect_twin(points);
+}
+
 TEST(Tree, of_sorted_photons_equals_the_twin) {
-    Points points = draw_points(20'000, 6);
+    Points points = draw_points(120'000, 6);
     std::sort(points.begin(), points.end(), [](const glm::vec3& a, const glm::vec3& b) { return a.x < b.x; });
     expect_twin(points);
     std::reverse(points.begin(), points.end());
