@@ -40,7 +40,7 @@ std::string write_each_kept(std::uint32_t count) {
 // Entries of the list that selecting needs: the rank, its growth, a leaf; the last is taken in tiles of a subgroup.
 std::uint32_t size_list(std::uint32_t rank, std::uint32_t subgroup_size) {
     return rank + std::max(rank / 4, shared::TREE_LEAF_PHOTONS / 2) +
-           std::max(shared::TREE_LEAF_PHOTONS, subgroup_size) + 1;
+           std::max(shared::TREE_LEAF_PHOTONS, subgroup_size) + 2;
 }
 
 // What one gather is about.
@@ -103,8 +103,10 @@ std::vector<std::uint32_t> run_side_by_side(const Gathering& about, const gpu::K
 }
 
 // Runs the kernel a query at a time, again and again where it is not through; every dispatch brings each query on.
-void run_singly(const Gathering& about, const gpu::KernelSource& kernel, const std::vector<gpu::Binding>& more,
+// Returns those that ended with the flag TIES_UNCOUNTED.
+std::vector<std::uint32_t> run_singly(const Gathering& about, const gpu::KernelSource& kernel, const std::vector<gpu::Binding>& more,
                 std::span<const std::byte> push, std::span<const std::uint32_t> queries, std::uint32_t saved_words) {
+    std::vector<std::uint32_t> uncounted;
     for (std::size_t begin = 0; begin < queries.size(); begin += LARGEST_SINGLE_COUNT) {
         const std::span<const std::uint32_t> part =
             queries.subspan(begin, std::min(LARGEST_SINGLE_COUNT, queries.size() - begin));
@@ -128,9 +130,13 @@ void run_singly(const Gathering& about, const gpu::KernelSource& kernel, const s
             bindings.push_back({"unanswered", unanswered});
             run_chunks(about, kernel, bindings, push, 0, left.size(), 1);
             const std::vector<std::uint32_t> flags = unanswered.read<std::uint32_t>(part.size());
-            std::erase_if(left, [&](const glm::uvec2& single) { return flags[single.y] == 0; });
+            for (const glm::uvec2& single : left)
+                if (flags[single.y] == shared::TIES_UNCOUNTED)
+                    uncounted.push_back(single.x);
+            std::erase_if(left, [&](const glm::uvec2& single) { return flags[single.y] != 1; });
         }
     }
+    return uncounted;
 }
 
 void set_batches(std::span<std::byte> push, std::uint32_t batches) {
@@ -192,13 +198,15 @@ void find_radii(gpu::Device& device, const Neighborhood& neighborhood, const Que
         return;
     set_batches(bytes, 1);
     const std::uint32_t capacity = size_list(settings.rank, device.limits().subgroup_size);
-    run_singly(about, {"photons/select_radius.comp", 0, selecting, {capacity}}, {{"radii", radii}}, bytes, left,
-               SAVED_SEARCH_HEAD + 2 * shared::TREE_STACK_SIZE + 3 * capacity);
-    if (settings.cuts_ties || !settings.needs_ties)
+    const std::vector<std::uint32_t> uncounted =
+        run_singly(about, {"photons/select_radius.comp", 0, selecting, {capacity}}, {{"radii", radii}}, bytes, left,
+                   SAVED_SEARCH_HEAD + 2 * shared::TREE_STACK_SIZE + 3 * capacity);
+    if (uncounted.empty() || !settings.needs_ties)
         return;
     defines = list_defines(neighborhood, queries);
     defines.emplace_back("SINGLY");
-    run_singly(about, {"photons/count_ties.comp", 0, defines, {}}, {{"radii", radii}}, bytes, left, SAVED_WALK_WORDS);
+    run_singly(about, {"photons/count_ties.comp", 0, defines, {}}, {{"radii", radii}}, bytes, uncounted,
+               SAVED_WALK_WORDS);
 }
 
 void run_gather(gpu::Device& device, const Neighborhood& neighborhood, const Queries& queries,

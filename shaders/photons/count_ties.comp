@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of queries whose radius photons/select_radius.comp found: how many photons lie nearer and how many at just the radius,
+// Of queries at whose radius more photons lie than photons/select_radius.comp holds: how many photons lie nearer and how many at just the radius,
 // and so the weight of the latter. Inputs: the tree, the queries, singles. In and out: radii (x and w known).
 // Outputs: unanswered.
 #include "shared/prelude.glsl"

@@ -221,9 +221,15 @@ void choose_bounds(uint wanted, uint pass, float limit) {
     } else {
         float span = my_search.above - below;
         float each = span / float(my_search.above_count - my_search.below_count);
+        float target = below + each * (float(wanted - my_search.below_count) - 0.5);
+        if (my_search.below_count > 1u && below > 0.0) { // counts grow as a power of the measure
+            float power = log2(float(my_search.above_count) / float(my_search.below_count)) / log2(my_search.above / below);
+            target = below * exp2(log2((float(wanted) - 0.5) / float(my_search.below_count)) / power);
+            each = target / (power * float(wanted));
+        }
         // Where counts do not grow evenly the middle does better than what they point at.
         bool halves = pass > 2u && pass % 2u == 0u;
-        aim_bounds(below + (halves ? 0.5 * span : each * (float(wanted - my_search.below_count) - 0.5)), each);
+        aim_bounds(halves ? below + 0.5 * span : target, each);
     }
     my_search.lo = clamp(my_search.lo, my_search.below, my_search.above);
     my_search.hi = min(max(my_search.hi, my_search.lo), min(my_search.above, limit));

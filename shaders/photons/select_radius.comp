@@ -2,11 +2,12 @@
 // The radius of queries that photons/find_radii.comp leaves, one a subgroup: eight tree nodes are tested at once, those
 // nearest entered first, and photons within the bound gathered in a list that shrinks it. A query that spends its turns
 // goes on in the next dispatch where it stopped, so that whatever the photons are like it is answered.
-// Inputs: the tree, the queries, singles. Outputs: radii (see photons/search_radius.glsl; without CUT_TIES the weight
-// of photons at just the radius is left to photons/count_ties.comp), unanswered. In and out: saved_searches.
+// Inputs: the tree, the queries, singles. Outputs: radii (see photons/search_radius.glsl), unanswered (without CUT_TIES
+// TIES_UNCOUNTED where more photons lie at just the radius than the list holds). In and out: saved_searches.
 #include "shared/prelude.glsl"
 #include "photons/tree_texels.glsl"
 #include "photons/candidates.glsl"
+#include "photons/radii.glsl"
 #include "shared/turns.glsl"
 
 #define WIDTH gl_WorkGroupSize.x
@@ -21,6 +22,12 @@
 layout(push_constant) uniform Push { GatherSettings settings; };
 
 const uint NO_BOUND = 0x7f800000u;
+// Photons kept: without CUT_TIES one more than the rank, which tells whether more tie.
+#ifdef CUT_TIES
+#define KEPT settings.rank
+#else
+#define KEPT (settings.rank + 1u)
+#endif
 
 shared uint stack_node[TREE_STACK_SIZE];
 shared float stack_bound[TREE_STACK_SIZE];
@@ -75,9 +82,9 @@ void list_leaf(uint leaf) {
 // Drops what lies beyond the rank once enough has come in.
 void cut_selection() {
     uint full = settings.rank + max(settings.rank / 4u, TREE_LEAF_PHOTONS / 2u);
-    if (selection.count < full && (selection.count < settings.rank || selection.last.x != NO_BOUND)) return;
-    selection.last = cut_list(selection.count, settings.rank);
-    selection.count = min(selection.count, settings.rank);
+    if (selection.count < full && (selection.count < KEPT || selection.last.x != NO_BOUND)) return;
+    selection.last = cut_list(selection.count, KEPT);
+    selection.count = min(selection.count, KEPT);
 }
 
 void search_tree() {
@@ -152,6 +159,7 @@ void save_search() {
 
 void write_radius(uint query) {
     uint found = min(selection.count, settings.rank);
+    bool has_next = selection.count > settings.rank; // one more is kept, which tells whether the last ties
     uvec3 last = selection.count > 0u ? cut_list(selection.count, settings.rank) : uvec3(0u);
     bool takes_all = found < settings.rank;
     // All before this are members; where the last is one too, all up to it.
@@ -159,11 +167,19 @@ void write_radius(uint query) {
 #ifdef CUT_TIES
     vec4 radius = vec4(uintBitsToFloat(last.x), uintBitsToFloat(cut.x), uintBitsToFloat(cut.y), float(found));
 #else
-    vec4 radius = vec4(uintBitsToFloat(last.x), 0.0, 0.0, float(max(found, 1u) - 1u));
+    uint equal = 0u;
+    for (uint i = LANE; i < found; i += WIDTH) equal += uint(list[i].x == last.x);
+    equal = subgroupAdd(equal);
+    vec4 radius = found > 0u ? share_ties(uintBitsToFloat(last.x), found, found - equal, equal) : vec4(0.0);
+    bool ties_on = has_next && list[settings.rank].x == last.x && last.x != 0u;
 #endif
     if (LANE == 0u) {
         radii[query] = radius;
+#ifdef CUT_TIES
         unanswered[my_slot] = 0u;
+#else
+        unanswered[my_slot] = ties_on ? TIES_UNCOUNTED : 0u;
+#endif
     }
 }
 

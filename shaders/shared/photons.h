@@ -83,6 +83,9 @@ struct GatherSettings {
 // What marks radii that were carried over from the step before (in w).
 const float CARRIED_RADIUS = -1.0f;
 
+// Flag of a query whose radius is known but not how many photons lie at just that radius.
+const uint TIES_UNCOUNTED = 2u;
+
 // Members as lists: rows in scratch memory from query row_first on.
 struct ListSettings {
     GatherSettings gather;
