@@ -10,6 +10,11 @@
 
 layout(push_constant) uniform Push { GatherSettings settings; };
 
+// Loop turns a batch may take, and more for each of the rank: some ten times what is usual. Where it takes more, bounds
+// keep little of the map away, and one query at a time is cheaper.
+const uint USUAL_TURNS = 4000u;
+const uint USUAL_TURNS_EACH = 16u;
+
 #ifdef CARRIED
 bool is_carried(vec4 radius) { return radius.w == CARRIED_RADIUS && radius.x > 0.0; }
 #else
@@ -21,6 +26,7 @@ void main() {
     for (uint batch = 0u; batch < settings.batches; ++batch) {
         uint query;
         bool has_query = take_turn(settings, batch, query);
+        turn_limit = min(turn_limit, turns + USUAL_TURNS + USUAL_TURNS_EACH * settings.rank);
         take_query(query, settings.period, settings.flatness);
         vec4 radius = radii[query];
         bool seeks = has_query && can_find() && !is_carried(radius);
