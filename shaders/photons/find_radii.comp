@@ -23,6 +23,7 @@ bool is_carried(vec4 radius) { return false; }
 
 void main() {
     float before2 = 0.0; // of the batch before
+    float before_nearest2 = 0.0;
     for (uint batch = 0u; batch < settings.batches; ++batch) {
         uint query;
         bool has_query = take_turn(settings, batch, query);
@@ -32,12 +33,19 @@ void main() {
         bool seeks = has_query && can_find() && !is_carried(radius);
         float guess2 = settings.carry > 0.0 ? radius.x * settings.carry : before2;
         bool needs_guess = seeks && guess2 <= 0.0;
-        if (subgroupAny(needs_guess)) guess2 = needs_guess ? guess_radius2(settings, query) : guess2;
-        find_radius(seeks, settings, guess2);
+        float nearest2 = before_nearest2;
+        if (subgroupAny(needs_guess)) {
+            float guessed_nearest2;
+            float guessed2 = guess_radius2(settings, query, guessed_nearest2);
+            guess2 = needs_guess ? guessed2 : guess2;
+            nearest2 = needs_guess ? guessed_nearest2 : nearest2;
+        }
+        find_radius(seeks, settings, guess2, nearest2);
         if (has_query && !is_carried(radius)) radii[query] = my_radius;
         report_turn(settings, has_query, is_settled || !seeks, query);
 #ifndef OWN_PHOTONS
         before2 = is_settled ? my_radius.x : 0.0;
+        before_nearest2 = is_settled ? my_search.nearest : 0.0;
 #endif
     }
 }

@@ -32,15 +32,16 @@ float guess_in_leaf(uint photon_count, uint leaf_level, uint leaf, uint rank) {
 }
 
 #ifdef OWN_PHOTONS
-float guess_radius2(GatherSettings gather, uint query) {
+float guess_radius2(GatherSettings gather, uint query, out float nearest2) {
+    nearest2 = 0.0;
     float share = float(query) / float(gather.photon_count); // exact enough for a guess
     uint leaf_count = 1u << gather.leaf_level;
     uint leaf = min(uint(share * float(leaf_count)), leaf_count - 1u);
     return guess_in_leaf(gather.photon_count, gather.leaf_level, leaf, gather.rank);
 }
 #else
-// Walks down to the nearest leaf.
-float guess_radius2(GatherSettings gather, uint query) {
+// Walks down to a near leaf.
+float guess_radius2(GatherSettings gather, uint query, out float nearest2) {
     Bounds own = bound_mine();
     uint node = 1u;
     float bound = 0.0;
@@ -51,6 +52,7 @@ float guess_radius2(GatherSettings gather, uint query) {
     }
     turns += gather.leaf_level;
     float within = guess_in_leaf(gather.photon_count, gather.leaf_level, node - (1u << gather.leaf_level), gather.rank);
-    return bound > 0.0 && bound < INFINITY ? bound * 1.05 + within : within;
+    nearest2 = bound < INFINITY ? bound : 0.0;
+    return nearest2 + within;
 }
 #endif

@@ -37,6 +37,7 @@ struct Search {
     uint lo_count, hi_count;         // of this pass
     bool counts_ties;                // this pass counts those that tie at lo, of which more than a shell were met …
     uint nearer;                     // … with so many nearer
+    float nearest;                   // the least measure met, or about it
 };
 
 Search my_search;
@@ -46,6 +47,7 @@ bool is_settled; // it is the query's
 // whole numbers have a least and a greatest without a second thought for NaN.
 uint shell[SHELL_SIZE];
 const uint NO_MEASURE = 0x7f800000u;
+uint least_met;          // of this pass, as bits
 bool is_cut_short;       // the lane gave the last pass up: its counts are too low
 uint map_size;           // photons
 bool includes_last;      // with CUT_TIES: the candidate of the rank is a member itself
@@ -60,6 +62,7 @@ void count_tile(uint next, uint end) {
         bool inside = measure <= my_search.lo; \
         my_search.lo_count += uint(inside); \
         my_search.hi_count += uint(measure <= my_search.hi); \
+        least_met = min(least_met, floatBitsToUint(measure)); \
         uint rest = inside ? NO_MEASURE : floatBitsToUint(measure); \
         EACH_KEPT(KEEP) }
         COUNT(0u) COUNT(1u) COUNT(2u) COUNT(3u) COUNT(4u) COUNT(5u) COUNT(6u) COUNT(7u)
@@ -74,6 +77,7 @@ void count_pass(bool searching, uint wanted, uint photon_count, uint leaf_level)
     Search kept = my_search;
     my_search.lo_count = 0u;
     my_search.hi_count = 0u;
+    least_met = NO_MEASURE;
 #define CLEAR(i) shell[i] = NO_MEASURE;
     EACH_KEPT(CLEAR)
     bool accepts = searching;
@@ -87,8 +91,9 @@ void count_pass(bool searching, uint wanted, uint photon_count, uint leaf_level)
     start_walk(leaf_level);
     bool goes_on = true;
     while (goes_on) {
-        // Lanes that accept nothing more put nothing in order.
-        my_search.lo = accepts ? lo : INFINITY;
+        // Lanes that accept nothing more count nothing more.
+        my_search.lo = accepts ? lo : -1.0;
+        my_search.hi = accepts ? hi : -1.0;
         bool is_crowded = false;
         do {
             count_leaves(photon_count, leaf_level);
@@ -103,6 +108,7 @@ void count_pass(bool searching, uint wanted, uint photon_count, uint leaf_level)
         goes_on = goes_on && subgroupAny(accepts);
     }
     my_search.lo = lo;
+    my_search.hi = hi;
     if (!searching) my_search = kept;
 }
 
@@ -196,40 +202,40 @@ void aim_bounds(float target, float each) {
     my_search.hi = target + reach;
 }
 
-// The next bounds, from what is known. Photons lie on surfaces: counts grow with the squared radius.
+// The next bounds, from what is known. Counts grow with the measure beyond that of the nearest, on surfaces evenly.
 void choose_bounds(uint wanted, uint pass, float limit) {
-    float below = max(my_search.below, 0.0);
+    float base = my_search.nearest < my_search.above ? my_search.nearest : max(my_search.below, 0.0);
+    float below = max(my_search.below - base, 0.0);
+    float above = my_search.above - base;
     bool is_open = my_search.above == INFINITY;
-    float last_lo = my_search.lo;
     if (is_open && 4u * my_search.below_count > wanted && pass < 2u) {
         float each = below / float(my_search.below_count);
-        aim_bounds(each * (float(wanted) - 0.5), each);
+        aim_bounds(base + each * (float(wanted) - 0.5), each);
     } else if (is_open) {
         float scale = 1.4 * float(wanted) / float(max(my_search.below_count, 1u));
         my_search.lo = my_search.below;
-        my_search.hi = max(max(below * clamp(scale, 1.5, 16.0), limit * SMALLEST_SHARE), SMALLEST_MEASURE);
+        my_search.hi = base + max(max(below * clamp(scale, 1.5, 16.0), limit * SMALLEST_SHARE), SMALLEST_MEASURE);
     } else if (is_cut_short) {
         my_search.lo = my_search.below;
-        my_search.hi = below > 0.0 ? sqrt(below) * sqrt(my_search.above) : my_search.above / 16.0;
+        my_search.hi = base + (below > 0.0 ? sqrt(below) * sqrt(above) : above / 16.0);
     } else if (my_search.below_count + SHELL_SIZE >= wanted) { // the shell reaches it from here
         my_search.lo = my_search.below;
         my_search.hi = my_search.above;
     } else if (pass > PATIENCE) {
-        uint middle = (floatBitsToUint(below) + floatBitsToUint(my_search.above)) / 2u;
+        uint middle = (floatBitsToUint(max(my_search.below, 0.0)) + floatBitsToUint(my_search.above)) / 2u;
         my_search.lo = uintBitsToFloat(middle);
         my_search.hi = my_search.above;
     } else {
-        float span = my_search.above - below;
-        float each = span / float(my_search.above_count - my_search.below_count);
+        float each = (above - below) / float(my_search.above_count - my_search.below_count);
         float target = below + each * (float(wanted - my_search.below_count) - 0.5);
-        if (my_search.below_count > 1u && below > 0.0) { // counts grow as a power of the measure
-            float power = log2(float(my_search.above_count) / float(my_search.below_count)) / log2(my_search.above / below);
+        if (my_search.below_count > 1u && below > 0.0) { // as a power of the measure
+            float power = log2(float(my_search.above_count) / float(my_search.below_count)) / log2(above / below);
             target = below * exp2(log2((float(wanted) - 0.5) / float(my_search.below_count)) / power);
             each = target / (power * float(wanted));
         }
         // Where counts do not grow evenly the middle does better than what they point at.
         bool halves = pass > 2u && pass % 2u == 0u;
-        aim_bounds(halves ? below + 0.5 * span : target, each);
+        aim_bounds(base + (halves ? 0.5 * (below + above) : target), each);
     }
     my_search.lo = clamp(my_search.lo, my_search.below, my_search.above);
     my_search.hi = min(max(my_search.hi, my_search.lo), min(my_search.above, limit));
@@ -237,6 +243,8 @@ void choose_bounds(uint wanted, uint pass, float limit) {
 
 // Looks at what a pass found, and takes the radius or prepares the next pass.
 void judge_pass(inout uint rank, inout bool is_short, uint pass, float limit) {
+    float least = uintBitsToFloat(least_met);
+    if (my_search.hi_count > 0u) my_search.nearest = is_cut_short ? min(least, my_search.nearest) : least;
     if (my_search.hi <= 0.0 && my_search.hi_count >= rank && !my_search.counts_ties) { // all at just its place
         settle_radius(0.0, rank, 0u, my_search.hi_count, is_short);
         return;
@@ -283,15 +291,17 @@ void judge_pass(inout uint rank, inout bool is_short, uint pass, float limit) {
     }
 }
 
-// Finds the radius of every lane's query for a rank that counts from 1. `guess2` is a squared radius that may be right.
-void find_radius(bool has_query, GatherSettings gather, float guess2) {
+// Finds the radius of every lane's query for a rank that counts from 1. `guess2` is a squared radius that may be right,
+// `nearest2` about that of the nearest candidate.
+void find_radius(bool has_query, GatherSettings gather, float guess2, float nearest2) {
     uint wanted = gather.rank;
     float limit = limit_reach();
     float share = FIRST_FILL * float(SHELL_SIZE) / float(wanted);
     // A shell that holds all needs no bound below.
-    float lo = wanted <= SHELL_SIZE ? -1.0 : guess2 * (1.0 - share);
-    float hi = min(guess2 * (1.0 + (wanted <= SHELL_SIZE ? 1.2 : clamp(share, 0.1, 0.4))), limit);
-    my_search = Search(has_query, min(lo, hi), hi, -1.0, INFINITY, 0u, 0u, 0u, 0u, false, 0u);
+    float each2 = guess2 - nearest2;
+    float lo = wanted <= SHELL_SIZE ? -1.0 : guess2 - each2 * share;
+    float hi = min(guess2 + each2 * (wanted <= SHELL_SIZE ? 1.2 : clamp(share, 0.1, 0.4)), limit);
+    my_search = Search(has_query, min(lo, hi), hi, -1.0, INFINITY, 0u, 0u, 0u, 0u, false, 0u, nearest2);
     my_radius = vec4(0.0);
     is_settled = false;
     map_size = gather.photon_count;
