@@ -7,7 +7,8 @@ namespace {
 
 constexpr const char* STAGE = "find neighbors";
 constexpr std::uint32_t SORT_GROUP = 64;
-constexpr std::uint32_t SORT_RUN = 16;              // shaders/photons/sort_neighbors.comp
+constexpr std::uint32_t SORT_RUN = 32;            // sorted at once in registers
+constexpr std::uint32_t LARGEST_WAYS = 8;         // runs merged at a time
 constexpr std::uint64_t LIST_BYTES = 64ull << 20;   // of the lists under way together
 constexpr std::uint64_t PAIR_BYTES = sizeof(glm::uvec2);
 
@@ -21,6 +22,21 @@ std::string write_sort_network(std::uint32_t size) {
                     if ((i + j) / (2 * p) == (i + j + k) / (2 * p))
                         text += " EXCHANGE(" + std::to_string(i + j) + "u, " + std::to_string(i + j + k) + "u)";
     return text;
+}
+
+// A macro that calls its argument with 0 … count - 1.
+std::string write_each(const std::string& name, std::uint32_t count, const char* suffix) {
+    std::string text = name + "(DO)";
+    for (std::uint32_t i = 0; i < count; ++i)
+        text += " DO(" + std::to_string(i) + suffix + ")";
+    return text;
+}
+
+std::vector<std::string> list_sort_defines(std::uint32_t k) {
+    const std::uint32_t ways = std::clamp((k + SORT_RUN - 1) / SORT_RUN, 2u, LARGEST_WAYS);
+    return {"RUN " + std::to_string(SORT_RUN) + "u", write_sort_network(SORT_RUN),
+            write_each("EACH_OF_RUN", SORT_RUN, "u"), "WAYS " + std::to_string(ways) + "u",
+            write_each("EACH_WAY", ways, "")};
 }
 
 } // namespace
@@ -63,7 +79,7 @@ Neighbors find_neighbors(gpu::Device& device, Neighborhood neighborhood, const N
                                                                static_cast<std::uint32_t>(size), row_first, k,
                                                                static_cast<std::uint32_t>(part * k), 0, 0, 0};
                                commands.dispatch(
-                                   {"photons/sort_neighbors.comp", SORT_GROUP, {write_sort_network(SORT_RUN)}, {}},
+                                   {"photons/sort_neighbors.comp", SORT_GROUP, list_sort_defines(k), {}},
                                    {{"found_neighbors", found},
                                     {"found_counts", found_counts},
                                     {"result_rows", ordered.result_rows},

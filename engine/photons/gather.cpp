@@ -4,9 +4,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <chrono>
-#include <cstdio>
-#include <cstdlib>
 
 namespace photonloupe {
 namespace {
@@ -18,7 +15,7 @@ constexpr std::uint32_t LARGEST_SHELL = 12;
 // Workgroups of the first chunk of work: fewer would leave the device idle while chunks grow.
 constexpr std::uint64_t FIRST_GROUPS = 64;
 // Subgroups of queries a workgroup takes in turn: amortises its start; they share its loop turns.
-constexpr std::uint32_t BATCHES = 4;
+constexpr std::uint32_t BATCHES = 8;
 // Queries taken one by one that are under way together: bounds what is kept of them.
 constexpr std::size_t LARGEST_SINGLE_COUNT = 4096;
 // Words of a walk that is not over, and of its sums (shaders/photons/stream_members.glsl).
@@ -81,7 +78,7 @@ void run_chunks(const Gathering& about, const gpu::KernelSource& kernel, const s
 std::vector<std::uint32_t> run_side_by_side(const Gathering& about, const gpu::KernelSource& kernel,
                                             const std::vector<gpu::Binding>& more, std::span<const std::byte> push,
                                             std::uint64_t first, std::uint64_t count, bool takes_subgroups) {
-    auto t0 = std::chrono::steady_clock::now();
+    // All flags are set: a workgroup that the device stops for its loop turns clears none.
     const gpu::Buffer unanswered(about.device, (first + count) * sizeof(std::uint32_t), "unanswered queries");
     gpu::Commands commands(about.device, about.stage);
     commands.fill(unanswered, 1);
@@ -94,7 +91,6 @@ std::vector<std::uint32_t> run_side_by_side(const Gathering& about, const gpu::K
     const std::uint64_t per_group = takes_subgroups ? 1 : std::uint64_t{about.device.limits().subgroup_size} * BATCHES;
     run_chunks(about, kernel, bindings, push, first, count, per_group);
     const std::vector<std::uint32_t> flags = unanswered.read<std::uint32_t>(count, first);
-    if (getenv("DBG")) fprintf(stderr, "%s %s: %zu queries, left %zu, %.3f s\n", about.stage.c_str(), kernel.path.c_str(), (size_t)count, (size_t)std::count(flags.begin(), flags.end(), 1u), std::chrono::duration<double>(std::chrono::steady_clock::now()-t0).count());
     std::vector<std::uint32_t> left;
     for (std::size_t i = 0; i < flags.size(); ++i)
         if (flags[i])
@@ -119,9 +115,7 @@ std::vector<std::uint32_t> run_singly(const Gathering& about, const gpu::KernelS
         std::vector<glm::uvec2> left; // query, slot
         for (std::size_t slot = 0; slot < part.size(); ++slot)
             left.emplace_back(part[slot], static_cast<std::uint32_t>(slot));
-        auto t0 = std::chrono::steady_clock::now(); int rounds = 0; struct P { decltype(t0)& t; int& r; size_t n; std::string p; ~P() { if (getenv("DBG")) fprintf(stderr, "  singly %s: %zu in %d rounds, %.3f s\n", p.c_str(), n, r, std::chrono::duration<double>(std::chrono::steady_clock::now()-t).count()); } } pp{t0, rounds, left.size(), kernel.path};
         while (!left.empty()) {
-            ++rounds;
             const gpu::Buffer singles = gpu::make_buffer(about.device, left, "single queries");
             std::vector<gpu::Binding> bindings = about.bind(more);
             for (const char* name : {"saved_walks", "saved_lists", "saved_searches"})

@@ -22,8 +22,8 @@ bool is_carried(vec4 radius) { return false; }
 #endif
 
 void main() {
-    float before2 = 0.0; // of the batch before
-    float before_nearest2 = 0.0;
+    float beyond2 = 0.0; // of the batch before: from the nearest photon's measure to the radius …
+    uint nearest_at = 0u; // … and where that photon stands
     for (uint batch = 0u; batch < settings.batches; ++batch) {
         uint query;
         bool has_query = take_turn(settings, batch, query);
@@ -31,9 +31,13 @@ void main() {
         take_query(query, settings.period, settings.flatness);
         vec4 radius = radii[query];
         bool seeks = has_query && can_find() && !is_carried(radius);
-        float guess2 = settings.carry > 0.0 ? radius.x * settings.carry : before2;
+        float guess2 = settings.carry > 0.0 ? radius.x * settings.carry : 0.0;
+        float nearest2 = 0.0;
+        if (beyond2 > 0.0) { // the same photon is near this query too
+            nearest2 = measure_candidate(load_candidate(nearest_at, true));
+            guess2 = nearest2 < INFINITY ? nearest2 + beyond2 : 0.0;
+        }
         bool needs_guess = seeks && guess2 <= 0.0;
-        float nearest2 = before_nearest2;
         if (subgroupAny(needs_guess)) {
             float guessed_nearest2;
             float guessed2 = guess_radius2(settings, query, guessed_nearest2);
@@ -44,8 +48,8 @@ void main() {
         if (has_query && !is_carried(radius)) radii[query] = my_radius;
         report_turn(settings, has_query, is_settled || !seeks, query);
 #ifndef OWN_PHOTONS
-        before2 = is_settled ? my_radius.x : 0.0;
-        before_nearest2 = is_settled ? my_search.nearest : 0.0;
+        beyond2 = is_settled ? my_radius.x - my_search.nearest : 0.0;
+        nearest_at = my_search.nearest_at;
 #endif
     }
 }

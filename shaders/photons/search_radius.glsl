@@ -37,7 +37,8 @@ struct Search {
     uint lo_count, hi_count;         // of this pass
     bool counts_ties;                // this pass counts those that tie at lo, of which more than a shell were met …
     uint nearer;                     // … with so many nearer
-    float nearest;                   // the least measure met, or about it
+    float nearest;                   // the least measure met, or about it …
+    uint nearest_at;                 // … and the tree position of that photon
 };
 
 Search my_search;
@@ -48,6 +49,7 @@ bool is_settled; // it is the query's
 uint shell[SHELL_SIZE];
 const uint NO_MEASURE = 0x7f800000u;
 uint least_met;          // of this pass, as bits
+uint least_tile;         // and where it was met
 bool is_cut_short;       // the lane gave the last pass up: its counts are too low
 uint map_size;           // photons
 bool includes_last;      // with CUT_TIES: the candidate of the rank is a member itself
@@ -62,7 +64,9 @@ void count_tile(uint next, uint end) {
         bool inside = measure <= my_search.lo; \
         my_search.lo_count += uint(inside); \
         my_search.hi_count += uint(measure <= my_search.hi); \
-        least_met = min(least_met, floatBitsToUint(measure)); \
+        bool is_least = floatBitsToUint(measure) < least_met; \
+        least_met = is_least ? floatBitsToUint(measure) : least_met; \
+        least_tile = is_least ? next + base + c : least_tile; \
         uint rest = inside ? NO_MEASURE : floatBitsToUint(measure); \
         EACH_KEPT(KEEP) }
         COUNT(0u) COUNT(1u) COUNT(2u) COUNT(3u) COUNT(4u) COUNT(5u) COUNT(6u) COUNT(7u)
@@ -78,6 +82,7 @@ void count_pass(bool searching, uint wanted, uint photon_count, uint leaf_level)
     my_search.lo_count = 0u;
     my_search.hi_count = 0u;
     least_met = NO_MEASURE;
+    least_tile = 0u;
 #define CLEAR(i) shell[i] = NO_MEASURE;
     EACH_KEPT(CLEAR)
     bool accepts = searching;
@@ -244,7 +249,9 @@ void choose_bounds(uint wanted, uint pass, float limit) {
 // Looks at what a pass found, and takes the radius or prepares the next pass.
 void judge_pass(inout uint rank, inout bool is_short, uint pass, float limit) {
     float least = uintBitsToFloat(least_met);
-    if (my_search.hi_count > 0u) my_search.nearest = is_cut_short ? min(least, my_search.nearest) : least;
+    bool is_new = my_search.hi_count > 0u && (!is_cut_short || least < my_search.nearest);
+    my_search.nearest = is_new ? least : my_search.nearest;
+    my_search.nearest_at = is_new ? least_tile : my_search.nearest_at;
     if (my_search.hi <= 0.0 && my_search.hi_count >= rank && !my_search.counts_ties) { // all at just its place
         settle_radius(0.0, rank, 0u, my_search.hi_count, is_short);
         return;
@@ -301,7 +308,7 @@ void find_radius(bool has_query, GatherSettings gather, float guess2, float near
     float each2 = guess2 - nearest2;
     float lo = wanted <= SHELL_SIZE ? -1.0 : guess2 - each2 * share;
     float hi = min(guess2 + each2 * (wanted <= SHELL_SIZE ? 1.2 : clamp(share, 0.1, 0.4)), limit);
-    my_search = Search(has_query, min(lo, hi), hi, -1.0, INFINITY, 0u, 0u, 0u, 0u, false, 0u, nearest2);
+    my_search = Search(has_query, min(lo, hi), hi, -1.0, INFINITY, 0u, 0u, 0u, 0u, false, 0u, nearest2, 0u);
     my_radius = vec4(0.0);
     is_settled = false;
     map_size = gather.photon_count;

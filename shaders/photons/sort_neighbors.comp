@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Puts the members of each query in order, nearest first, ties by photon id, a query a lane: runs of RUN are sorted by a
-// network in registers, then up to WAYS runs are merged at a time.
+// network in registers, then WAYS runs are merged at a time. Defines: RUN, SORT_NETWORK (its comparators EXCHANGE(i, j)),
+// EACH_OF_RUN(DO): DO(0u) … DO(RUN - 1), WAYS, EACH_WAY(DO): DO(0) … DO(WAYS - 1).
 // Inputs: found_counts, result_rows (the row of each query's answer). In and out: found_neighbors (rows of `k` pairs;
 // behind the last row as much room again). Outputs: neighbor_ids, neighbor_distances; missing ones are -1 and inf.
 #include "shared/prelude.glsl"
@@ -13,8 +14,6 @@
 
 layout(push_constant) uniform Push { SortSettings settings; };
 
-#define RUN 16u
-#define WAYS 8u
 const uvec2 NOBODY = uvec2(0xffffffffu);
 
 bool is_before(uvec2 a, uvec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
@@ -22,13 +21,11 @@ bool is_before(uvec2 a, uvec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y)
 #define EXCHANGE(i, j) { bool swap = is_before(pair[j], pair[i]); uvec2 least = swap ? pair[j] : pair[i]; \
     pair[j] = swap ? pair[i] : pair[j]; pair[i] = least; }
 
-// Sorts one run: Batcher's odd-even merge sort of 16.
+// Sorts one run by Batcher's odd-even merge sort.
 void sort_run(uint row, uint first, uint count) {
     uvec2 pair[RUN];
 #define LOAD(i) pair[i] = first + i < count ? found_neighbors[row + min(first + i, count - 1u)] : NOBODY;
 #define STORE(i) if (first + i < count) found_neighbors[row + first + i] = pair[i];
-#define EACH_OF_RUN(DO) DO(0u) DO(1u) DO(2u) DO(3u) DO(4u) DO(5u) DO(6u) DO(7u) \
-    DO(8u) DO(9u) DO(10u) DO(11u) DO(12u) DO(13u) DO(14u) DO(15u)
     EACH_OF_RUN(LOAD)
     SORT_NETWORK
     EACH_OF_RUN(STORE)
@@ -40,7 +37,6 @@ uvec2 load_head(uint from, uint at, uint end) { return at < end ? found_neighbor
 void merge_runs(uint from, uint to, uint first, uint run, uint count) {
     uvec2 head[WAYS];
     uint at[WAYS];
-#define EACH_WAY(DO) DO(0) DO(1) DO(2) DO(3) DO(4) DO(5) DO(6) DO(7)
 #define END_OF(w) min(first + (w + 1u) * run, count)
 #define START(w) at[w] = min(first + uint(w) * run, count); head[w] = load_head(from, at[w], END_OF(uint(w)));
     EACH_WAY(START)
