@@ -43,6 +43,8 @@ std::vector<std::string> list_defines(const Neighborhood& neighborhood, const Qu
     const bool is_in_space = neighborhood.measure != Measure::parameters;
     if (queries.are_photons)
         defines.emplace_back("OWN_PHOTONS");
+    if (queries.normals)
+        defines.emplace_back("HAS_NORMALS");
     if (!is_in_space)
         defines.emplace_back("IN_PARAMETER_SPACE");
     else if (!neighborhood.flat_axes.empty())

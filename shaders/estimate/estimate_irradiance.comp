@@ -6,6 +6,8 @@
 #include "estimate/density.glsl"
 #include "photons/candidates.glsl"
 
+layout(push_constant) uniform Push { GatherSettings settings; };
+
 vec4 flux_sum;
 float candidate_weight;
 uint tile_photon;
@@ -18,8 +20,10 @@ void accumulate(Candidate other, float weight) {
     candidate_weight = weight > 0.0 ? weigh_photon(min(square_length(find_offset(other)) / radius2, 1.0)) : 0.0;
 }
 
+// By address no descriptor would stop lanes that read nothing sensible.
 void load_payload(uint position) {
-    tile_power = power_object_at(floatBitsToUint(tree_positions_at(position).w)).rgb;
+    uint photon = min(floatBitsToUint(tree_positions_at(position).w), settings.photon_count - 1u);
+    tile_power = power_object_at(photon).rgb;
 }
 
 void meet_payload(uint lane, float weight) {
@@ -33,8 +37,6 @@ void meet_payload(uint lane, float weight) {
 #pragma binding readonly vec4 radii
 #pragma binding readonly uint result_rows
 #pragma binding writeonly vec4 irradiance
-
-layout(push_constant) uniform Push { GatherSettings settings; };
 
 // r: that of a set that takes every photon lies a little beyond the farthest.
 float find_support(vec4 radius) {

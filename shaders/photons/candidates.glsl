@@ -8,6 +8,7 @@
 // IN_INTERVALS: only those whose rows lie between two others. IN_PARAMETER_SPACE: the measure is the squared distance
 // there, among those of the same layer number. BY_ID: candidates bring their id along. WITHOUT_SELF: a query does not find
 // the photon that it is.
+// HAS_NORMALS: queries bring normals along.
 // Inputs: the tree (tree_nodes, tree_positions, tree_normals, normal_boxes; layers.glsl) and, by query, query_points
 // (xyz, w id bits of the photon itself), query_normals, query_rows, query_reach (squared), interval_rows (twice ROW_COUNT).
 #include "photons/place.glsl"
@@ -270,7 +271,9 @@ void take_query(uint i, vec4 space_period, float flatness) {
     my_self = floatBitsToUint(point.w);
     my_flatness = flatness;
     my_reach2 = 0.0;
+#ifdef HAS_NORMALS
     my_normal = query_normals_at(i).xyz;
+#endif
 #ifdef ROW_COUNT
     load_row_periods();
 #define TAKE_ROW(r) my_layer.row[r] = query_rows_at(ROW_COUNT * i + uint(r));

@@ -34,7 +34,7 @@ void main() {
         float guess2 = settings.carry > 0.0 ? radius.x * settings.carry : 0.0;
         float nearest2 = 0.0;
         if (beyond2 > 0.0) { // the same photon is near this query too
-            nearest2 = measure_candidate(load_candidate(nearest_at, true));
+            nearest2 = measure_candidate(load_candidate(min(nearest_at, settings.photon_count - 1u), true));
             guess2 = nearest2 < INFINITY ? nearest2 + beyond2 : 0.0;
         }
         bool needs_guess = seeks && guess2 <= 0.0;

@@ -24,14 +24,14 @@ bool is_before(uvec2 a, uvec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y)
 // Sorts one run by Batcher's odd-even merge sort.
 void sort_run(uint row, uint first, uint count) {
     uvec2 pair[RUN];
-#define LOAD(i) pair[i] = first + i < count ? found_neighbors[row + min(first + i, count - 1u)] : NOBODY;
+#define LOAD(i) pair[i] = first + i < count ? found_neighbors[row + min(first + i, max(count, 1u) - 1u)] : NOBODY;
 #define STORE(i) if (first + i < count) found_neighbors[row + first + i] = pair[i];
     EACH_OF_RUN(LOAD)
     SORT_NETWORK
     EACH_OF_RUN(STORE)
 }
 
-uvec2 load_head(uint from, uint at, uint end) { return at < end ? found_neighbors[from + min(at, end - 1u)] : NOBODY; }
+uvec2 load_head(uint from, uint at, uint end) { return at < end ? found_neighbors[from + min(at, max(end, 1u) - 1u)] : NOBODY; }
 
 // Merges WAYS runs that begin at `first`.
 void merge_runs(uint from, uint to, uint first, uint run, uint count) {

@@ -11,7 +11,7 @@
 
 float member_r2;
 vec4 member_radius; // as photons/find_radii.comp wrote it
-uint member_map_size;
+uint member_map_size; // photons
 
 float weigh_member(Candidate other) {
     float measure = measure_candidate(other);

@@ -5,15 +5,11 @@
 #include <glm/vec4.hpp>
 
 #include "gpu/commands.h"
+#include "shared/photons.h"
 #include "support/shared_device.h"
 
 namespace photonloupe {
 namespace {
-
-struct Push {
-    std::uint32_t first;
-    std::uint32_t count;
-};
 
 TEST(ChunksTest, items_beyond_one_dispatch_are_all_done) {
     gpu::Device& device = test::get_device();
@@ -21,18 +17,22 @@ TEST(ChunksTest, items_beyond_one_dispatch_are_all_done) {
     // far.
     constexpr std::uint64_t ITEM_COUNT = 5'000'000;
     const gpu::Buffer input(device, ITEM_COUNT * sizeof(glm::vec4), "input");
-    const gpu::Buffer output(device, ITEM_COUNT * sizeof(glm::vec4), "output");
-    gpu::run_in_chunks(device, "number", ITEM_COUNT, 1 << 16, {},
+    const gpu::Buffer reach = gpu::make_buffer(device, std::vector<float>{7.0f}, "reach");
+    const gpu::Buffer output(device, ITEM_COUNT * sizeof(float), "output");
+    gpu::Commands clear(device, "clear");
+    clear.fill(input, 0); // all photons have id 0
+    clear.run();
+    gpu::run_in_chunks(device, "order", ITEM_COUNT, 1 << 16, {},
                        [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
-                           const Push push{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count)};
-                           commands.dispatch({"photons/number_photons.comp", 64, {}, {}},
-                                             {{"position_emitter", input}, {"tree_positions", output}}, push, count);
+                           const shared::ReachSettings push{static_cast<std::uint32_t>(first),
+                                                            static_cast<std::uint32_t>(count), 1, 1.0f};
+                           commands.dispatch(
+                               {"photons/order_reaches.comp", 64, {}, {}},
+                               {{"tree_positions", input}, {"reaches_by_id", reach}, {"tree_reaches", output}}, push,
+                               count);
                        });
-    for (const std::uint64_t item : {std::uint64_t{0}, ITEM_COUNT / 2, ITEM_COUNT - 1}) {
-        std::uint32_t number = 0;
-        output.download(&number, sizeof number, item * sizeof(glm::vec4) + 12);
-        EXPECT_EQ(number, item);
-    }
+    for (const std::uint64_t item : {std::uint64_t{0}, ITEM_COUNT / 2, ITEM_COUNT - 1})
+        EXPECT_EQ(output.read<float>(1, item)[0], 7.0f);
 }
 
 } // namespace

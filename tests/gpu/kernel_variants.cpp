@@ -19,19 +19,26 @@ const std::vector<std::string> MIRROR{"", "HAS_MIRROR"};
 const std::vector<std::string> DIELECTRIC{"", "HAS_DIELECTRIC"};
 const std::vector<std::string> ABSORPTION{"", "HAS_ABSORPTION"};
 const std::vector<std::string> LIGHTS{"", "HAS_SEVERAL_LIGHTS"};
-const std::vector<std::string> CAPACITY{"CAPACITY 128u", "CAPACITY 256u"};
-// Three of these are code that engine/photons/query_tree.cpp writes; nothing stands for them here.
-const std::vector<std::string> BLOCK{"SORT_BLOCK 128u"}, NETWORK{"SORT_NETWORK"}, LOAD{"LOAD_KEYS"},
-    STORE{"STORE_KEYS"};
 const std::vector<std::string> KERNELS{"KERNEL 0", "KERNEL 1", "KERNEL 2", "KERNEL 3"};
 
-const std::vector<std::string> SPACES{"SPACE 0", "SPACE 1", "SPACE 2"};
-const std::vector<std::string> FLAT{"", "FLAT_AXES xz"}, PERIODIC{"", "PERIODIC"}, SINGLY{"", "SINGLY"};
-// Two rows of parameters; kernels in parameter space always have some.
-const std::vector<std::string> SOME_PARAMETERS{"PARAMETER_COUNT 5u\n#define PARAMETER_ROWS 2u\n"
-                                               "#define EACH_PARAMETER(DO) DO(0) DO(1) DO(2) DO(3) DO(4)"};
-const std::vector<std::string> PARAMETERS{"", SOME_PARAMETERS[0] + "\n#define TREE_RANGES uint[3](0u, 4u, 255u)",
-                                          SOME_PARAMETERS[0] + "\n#define PERIODIC_PARAMETERS"};
+const std::vector<std::string> SURFACE{"HAS_NORMALS", "HAS_NORMALS\n#define FLAT_AXES xz", "HAS_NORMALS\n#define ON_SURFACE"}, PERIODIC{"", "PERIODIC"}, SINGLY{"", "SINGLY"};
+// Two vec4s a row.
+const std::string ROWS = "ROW_COUNT 2u\n#define EACH_ROW(DO) DO(0) DO(1)\n"
+                         "#define EACH_PARAMETER(DO) DO(1) DO(2) DO(3) DO(4) DO(5)";
+const std::vector<std::string> LAYERS{"", ROWS + "\n#define SAME_LAYER",
+                                      ROWS + "\n#define SAME_LAYER\n#define PERIODIC_PARAMETERS"};
+const std::vector<std::string> SPACES{"",
+                                      "FLAT_AXES xz",
+                                      SURFACE[2],
+                                      ROWS + "\n#define SAME_LAYER",
+                                      ROWS + "\n#define IN_INTERVALS",
+                                      ROWS + "\n#define IN_PARAMETER_SPACE",
+                                      ROWS + "\n#define IN_PARAMETER_SPACE\n#define PERIODIC_PARAMETERS"};
+const std::vector<std::string> PARAMETERS{SPACES[5], SPACES[6]};
+const std::vector<std::string> OWN{"", "OWN_PHOTONS"};
+const std::vector<std::string> TIES{"", "CUT_TIES\n#define BY_ID", "CUT_TIES\n#define BY_ID\n#define WITHOUT_SELF"};
+const std::vector<std::string> RUN{"RUN 2u\n#define EACH_OF_RUN(DO) DO(0u) DO(1u)"}, NETWORK{"SORT_NETWORK EXCHANGE(0, 1)"},
+    WAYS{"WAYS 2u\n#define EACH_WAY(DO) DO(0) DO(1)"};
 const std::vector<std::string> SHELL{"SHELL_SIZE 2u\n#define EACH_KEPT(DO) DO(0) DO(1)"};
 const std::vector<std::string> RANGES{"", "RANGE_ROWS 2u"};
 const std::vector<std::string> SORT{"SORT_SIZE 32", "SORT_SIZE 64", "SORT_SIZE 128"};
@@ -39,32 +46,32 @@ const std::vector<std::string> DESCRIPTORS{"DESCRIPTOR 1", "DESCRIPTOR 2", "DESC
 
 // Kernels that are not named here take no defines.
 const std::map<std::string, Factors> FACTORS{
-    {"estimate/estimate_irradiance.comp", {KERNELS, CAPACITY, BLOCK, NETWORK, LOAD, STORE}},
-    {"estimate/select_irradiance.comp", {KERNELS}},
+    {"estimate/estimate_irradiance.comp", {KERNELS, {SURFACE[2]}, {TIES[1]}, SINGLY}},
     {"estimate/trace_eye.comp", {MIRROR, DIELECTRIC, ABSORPTION}},
     {"inspect/count_crossings.comp", {{"", "RAGGED"}}},
     {"photons/choose_brackets.comp", {RANGES}},
     {"photons/count_lefts.comp", {RANGES}},
-    {"photons/find_neighbors.comp", {CAPACITY, BLOCK, NETWORK, LOAD, STORE, SPACES, SOME_PARAMETERS}},
-    {"photons/find_parameter_radius.comp", {SHELL, SOME_PARAMETERS, PERIODIC, SINGLY}},
     {"photons/find_pivots.comp", {RANGES}},
-    {"photons/gather_parameters.comp", {{"PARAMETER_ROWS 2u"}}},
     {"photons/keep_between.comp", {RANGES}},
     {"photons/move_parts.comp", {RANGES}},
     {"photons/order_columns.comp", {RANGES}},
     {"photons/refit_leaves.comp", {RANGES}},
+    {"photons/count_ties.comp", {SPACES, PERIODIC, {"SINGLY"}}},
+    {"photons/find_radii.comp", {OWN, SPACES, PERIODIC, TIES, SHELL, {"", "CARRIED"}}},
+    {"photons/list_neighbors.comp", {SPACES, {TIES[2]}, SINGLY}},
+    {"photons/select_radius.comp", {SPACES, PERIODIC, {"BY_ID", TIES[1], TIES[2]}}},
+    {"photons/sort_neighbors.comp", {RUN, NETWORK, WAYS}},
     {"photons/refit_nodes.comp", {RANGES}},
     {"photons/scale_axes.comp", {{"RANGE_ROWS 2u"}, {"RANGE_AXES 7u"}, {"", "SPLIT_POSITIONS"}}},
-    {"photons/select_neighbors.comp", {SPACES, SOME_PARAMETERS}},
     {"photons/split_nodes.comp", {RANGES}},
     {"photons/split_small_nodes.comp", {RANGES, SORT, {"EACH_KEY(DO) DO(0)"}, {"SORT_NETWORK(DO) DO(0, 1)"}}},
-    {"relax/diffuse_flux.comp", {FLAT, PARAMETERS, PERIODIC, SINGLY}},
-    {"relax/measure_isotropy.comp", {SHELL, SOME_PARAMETERS, PERIODIC, SINGLY}},
-    {"relax/measure_moments.comp", {SHELL, DESCRIPTORS, FLAT, PARAMETERS, PERIODIC, SINGLY}},
-    {"relax/measure_split.comp", {FLAT, PARAMETERS, PERIODIC}},
-    {"relax/measure_tensor.comp", {FLAT, PARAMETERS, PERIODIC, SINGLY}},
+    {"relax/diffuse_flux.comp", {OWN, SURFACE, LAYERS, PERIODIC, SINGLY}},
+    {"relax/measure_isotropy.comp", {OWN, PARAMETERS, SINGLY}},
+    {"relax/measure_moments.comp", {DESCRIPTORS, SURFACE, LAYERS, PERIODIC, SINGLY}},
+    {"relax/measure_split.comp", {SURFACE, LAYERS, PERIODIC, SINGLY}},
+    {"relax/measure_tensor.comp", {SURFACE, LAYERS, PERIODIC, SINGLY}},
     {"relax/move_photons.comp", {{"", "HAS_SURFACE"}}},
-    {"relax/repel_photons.comp", {SHELL, FLAT, PARAMETERS, PERIODIC, SINGLY, {"", "CARRIED"}, {"", "CONSTRAINED"}}},
+    {"relax/repel_photons.comp", {SURFACE, LAYERS, PERIODIC, SINGLY, {"", "CARRIED"}, {"", "CONSTRAINED"}}},
     {"trace/shoot_photons.comp", {STORES, EMISSIONS, PATHS, MIRROR, DIELECTRIC, ABSORPTION, LIGHTS}},
     {"trace/write_photons.comp", {PATHS}},
 };
