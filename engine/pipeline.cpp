@@ -151,9 +151,17 @@ const ParameterTree& Workbench::find_parameter_tree(Photons& photons, const Prog
     return *photons.parameter_tree;
 }
 
-const ParameterTree& Workbench::find_layered_tree(Photons& photons, const Progress& progress) {
-    if (!photons.layered_tree)
-        photons.layered_tree = build_layered_tree(m_device, photons.map, find_parameter_rows(photons), progress);
+const ParameterTree& Workbench::find_layered_tree(Photons& photons, const Progress& progress,
+                                                  std::optional<LayerReach> reach) {
+    if (photons.layered_tree && (!reach || *reach == photons.layered_for))
+        return *photons.layered_tree;
+    const LayerReach suited = reach.value_or(LayerReach{});
+    const float scale =
+        choose_parameter_scale(m_device, find_parameter_tree(photons, progress), suited.k, suited.beta, progress);
+    photons.layered_tree =
+        build_layered_tree(m_device, photons.map, find_parameter_rows(photons), scale, progress);
+    photons.layered_for = suited;
+    photons.layered_scale = scale;
     return *photons.layered_tree;
 }
 
@@ -211,7 +219,14 @@ Relaxation Workbench::start_relaxation(Photons& photons, const Scene* scene, con
     const bool constrains = settings.constraint.descriptor != Descriptor::none;
     LayerTrees trees;
     if (settings.repel == Space::parameter || (constrains && settings.constraint.space == Space::parameter))
-        trees = {&find_parameter_tree(photons, progress), &find_layered_tree(photons, progress)};
+    {
+        const bool seeks_constraint = constrains && settings.constraint.space == Space::parameter;
+        const LayerReach reach = seeks_constraint ? LayerReach{settings.constraint.neighbors, settings.constraint.beta}
+                                                  : LayerReach{settings.neighbors, settings.beta};
+        trees.by_parameters = &find_parameter_tree(photons, progress);
+        trees.layered = &find_layered_tree(photons, progress, reach);
+        trees.parameter_scale = photons.layered_scale;
+    }
     RelaxSurface surface;
     if (scene)
         surface = {find_buffers(*scene), scene->origin};

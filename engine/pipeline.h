@@ -10,12 +10,20 @@
 
 #include "estimate/render_image.h"
 #include "photons/find_neighbors.h"
+#include "photons/layer_scale.h"
 #include "relax/isotropy.h"
 #include "relax/relaxation.h"
 #include "script/run_script.h"
 #include "trace/trace_photons.h"
 
 namespace photonloupe {
+
+// How far layers reach: β times the distance to the k-th neighbour in parameter space.
+struct LayerReach {
+    std::uint32_t k = 50;
+    float beta = 3.0f;
+    bool operator==(const LayerReach&) const = default;
+};
 
 // A photon map with what later stages need of it, built when first asked for and then kept.
 struct Photons {
@@ -26,6 +34,8 @@ struct Photons {
     std::shared_ptr<const ParameterRows> parameter_rows; // relaxations keep them
     std::optional<ParameterTree> parameter_tree;
     std::optional<ParameterTree> layered_tree;
+    LayerReach layered_for; // what it was built to suit …
+    float layered_scale = 0; // … and how it weighs parameters
     std::shared_ptr<const RelaxedState> state; // null: neither constrained nor relaxed
 
     // Trees of parameters that are no longer the map's.
@@ -64,9 +74,11 @@ public:
     Neighbors find_range_neighbors(Photons& photons, std::span<const glm::vec4> points, std::span<const float> low,
                                    std::span<const float> high, std::uint32_t k, const Progress& progress);
 
-    // Of parameters alone, and of positions and parameters.
+    // Of parameters alone, and of positions and parameters: one built before, whatever it suits best, or where `reach`
+    // is given one that suits it.
     const ParameterTree& find_parameter_tree(Photons& photons, const Progress& progress = {});
-    const ParameterTree& find_layered_tree(Photons& photons, const Progress& progress = {});
+    const ParameterTree& find_layered_tree(Photons& photons, const Progress& progress = {},
+                                           std::optional<LayerReach> reach = {});
 
     // Axis ratios of photons in world space around their k neighbours in parameter space, by id ([SJL15] eq. 5).
     std::vector<float> measure_isotropy(Photons& photons, std::uint32_t k, const Progress& progress);

@@ -106,8 +106,8 @@ std::string list_keys(std::uint32_t size) {
 class TreeBuilder {
 public:
     TreeBuilder(gpu::Device& device, const PhotonMap& photons, const RangeRows* ranges, TreeAxes axes,
-                const Progress& progress)
-        : m_device(device), m_photons(photons), m_ranges(ranges), m_axes(axes) {
+                float parameter_scale, const Progress& progress)
+        : m_device(device), m_photons(photons), m_ranges(ranges), m_axes(axes), m_parameter_scale(parameter_scale) {
         m_tree.count = photons.count;
         m_tree.leaf_level = find_leaf_level(photons.count);
         m_tree.range_rows = ranges ? ranges->count_rows() : 0;
@@ -170,7 +170,8 @@ private:
                 static_cast<std::uint32_t>(first),
                 static_cast<std::uint32_t>(count),
                 0,
-                0};
+                0,
+                m_parameter_scale};
     }
 
     gpu::KernelSource name_small_kernel(std::uint32_t largest_node) const {
@@ -305,6 +306,7 @@ private:
     const PhotonMap& m_photons;
     const RangeRows* m_ranges; // may be none
     TreeAxes m_axes;
+    float m_parameter_scale;
     std::optional<Batches> m_batches;
     std::vector<std::string> m_defines;
     KdTree m_tree;
@@ -325,12 +327,13 @@ std::uint32_t find_first_position(std::uint64_t count, std::uint64_t node, std::
 }
 
 KdTree build_tree(gpu::Device& device, const PhotonMap& photons, const Progress& progress) {
-    return TreeBuilder(device, photons, nullptr, TreeAxes::positions, progress).build();
+    return TreeBuilder(device, photons, nullptr, TreeAxes::positions, 0, progress).build();
 }
 
 KdTree build_tree(gpu::Device& device, const PhotonMap& photons, const RangeRows& ranges, TreeAxes axes,
-                  const Progress& progress) {
-    return TreeBuilder(device, photons, axes == TreeAxes::positions ? nullptr : &ranges, axes, progress).build();
+                  float parameter_scale, const Progress& progress) {
+    return TreeBuilder(device, photons, axes == TreeAxes::positions ? nullptr : &ranges, axes, parameter_scale, progress)
+        .build();
 }
 
 } // namespace photonloupe

@@ -45,8 +45,9 @@ KdTree build_tree(gpu::Device& device, const PhotonMap& photons, const Progress&
 // A tree whose nodes also know ranges. They are split along the axis of greatest spread: the standard deviation over
 // 64 evenly spaced photons of a node, times a scale by which all axes have the same spread over the whole map
 // (`ranges`: all but the parameters, whose values are compared as they are).
+// With a `parameter_scale` in `both`, parameters count so many metres a unit instead.
 KdTree build_tree(gpu::Device& device, const PhotonMap& photons, const RangeRows& ranges, TreeAxes axes,
-                  const Progress& progress = {});
+                  float parameter_scale = 0, const Progress& progress = {});
 
 // Records the filling of tree.normals and, with ranges, of tree.rows from the map, in the order of tree.positions, for
 // `count` photons: no more than workgroups of ORDER_GROUP that the device allows. `emitters` holds the least emitter and

@@ -139,13 +139,14 @@ ParameterRows make_parameter_rows(gpu::Device& device, const PhotonMap& photons)
 
 ParameterTree build_parameter_tree(gpu::Device& device, const PhotonMap& photons,
                                    std::shared_ptr<const ParameterRows> parameters, const Progress& progress) {
-    KdTree tree = build_tree(device, photons, parameters->rows, TreeAxes::ranges, progress);
+    KdTree tree = build_tree(device, photons, parameters->rows, TreeAxes::ranges, 0, progress);
     return {std::move(parameters), std::move(tree)};
 }
 
 ParameterTree build_layered_tree(gpu::Device& device, const PhotonMap& photons,
-                                 std::shared_ptr<const ParameterRows> parameters, const Progress& progress) {
-    KdTree tree = build_tree(device, photons, parameters->rows, TreeAxes::both, progress);
+                                 std::shared_ptr<const ParameterRows> parameters, float parameter_scale,
+                                 const Progress& progress) {
+    KdTree tree = build_tree(device, photons, parameters->rows, TreeAxes::both, parameter_scale, progress);
     return {std::move(parameters), std::move(tree)};
 }
 

@@ -41,7 +41,8 @@ ParameterTree build_parameter_tree(gpu::Device& device, const PhotonMap& photons
                                    std::shared_ptr<const ParameterRows> parameters, const Progress& progress = {});
 // Split along positions and parameters: for queries in space among the photons of a layer.
 ParameterTree build_layered_tree(gpu::Device& device, const PhotonMap& photons,
-                                 std::shared_ptr<const ParameterRows> parameters, const Progress& progress = {});
+                                 std::shared_ptr<const ParameterRows> parameters, float parameter_scale,
+                                 const Progress& progress = {});
 
 // What is sought in such a tree; layers and intervals are still to be named.
 Neighborhood look_in(const ParameterTree& tree, Measure measure);

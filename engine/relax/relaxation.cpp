@@ -138,6 +138,7 @@ void Relaxation::take_layers(const LayerTrees& trees, const Progress& progress) 
     if (m_settings.repel == Space::world)
         return;
     m_parameters = trees.layered->parameters;
+    m_parameter_scale = trees.parameter_scale;
     m_reach2 = find_layer_reaches(m_device, *trees.by_parameters, m_tree, m_settings.neighbors, m_settings.beta,
                                   progress);
     if (m_notes.empty()) {
@@ -252,7 +253,7 @@ void Relaxation::rebuild_tree(const Progress& progress) {
     KdTree tree;
     if (m_parameters) {
         const RangeRows rows{m_parameters->rows.axis_count, std::move(m_tree.rows)};
-        tree = build_tree(m_device, present, rows, TreeAxes::both, progress);
+        tree = build_tree(m_device, present, rows, TreeAxes::both, m_parameter_scale, progress);
     } else {
         tree = build_tree(m_device, present, progress);
     }

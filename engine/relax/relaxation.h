@@ -40,6 +40,7 @@ struct RelaxedColumns {
 struct LayerTrees {
     const ParameterTree* by_parameters = nullptr;
     const ParameterTree* layered = nullptr;
+    float parameter_scale = 0; // of `layered`
 };
 
 class Relaxation {
@@ -84,6 +85,7 @@ private:
     gpu::Buffer m_triangles;
     std::string m_flat_axes;
     std::shared_ptr<const ParameterRows> m_parameters; // with repulsion in layers
+    float m_parameter_scale = 0;                       // of its tree
     gpu::Buffer m_reach2;                              // the same, tree order
     gpu::Buffer m_power;                               // rgb, tree order; with flux diffusion
     Constraint m_constraint;

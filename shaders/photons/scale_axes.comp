@@ -41,6 +41,8 @@ void main() {
             scale[i] = scale_to(wanted, variance[i]);
 #ifndef SPLIT_POSITIONS
             if (axis > 0u && axis < RANGE_AXES) scale[i] = 1.0;
+#else
+            if (axis > 0u && axis < RANGE_AXES && build.parameter_scale > 0.0) scale[i] = build.parameter_scale;
 #endif
         }
         if (LANE == 0u) axis_scales[1u + row] = scale;

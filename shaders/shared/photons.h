@@ -35,6 +35,7 @@ struct TreeBuild {
     uint count;
     uint parts; // a large node's, of TREE_PART photons each but the last
     uint round; // how often its bracket was tried
+    float parameter_scale; // metres that one unit of parameters counts as; 0: all axes spread alike
 };
 
 // What one subgroup does of work that several share.
