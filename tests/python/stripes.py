@@ -36,7 +36,6 @@ RELAXATION: dict[str, Any] = {
     "descriptor": "pca",
     "beta": 3.0,
     "repel": "world",
-    "tree": "layered",
 }
 # METHODS section 7: shares of the reference's contrast at which a stripe survives, and at which it is lost.
 SURVIVES, LOST = 0.8, 0.4

@@ -77,7 +77,6 @@ def test_relax_takes_every_option(ring_zarr: Path, tmp_path: Path) -> None:
         "diffuse_flux": False,
         "search": "exact",
         "surface": "tangent",
-        "tree": "auto",
         "period": [0.0, 0.0, 0.0],
     }
 
