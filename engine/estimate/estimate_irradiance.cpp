@@ -9,34 +9,95 @@ namespace {
 
 constexpr const char* STAGE = "estimate irradiance";
 
+// What both ways of asking share.
+struct Estimate {
+    gpu::Device& device;
+    const gpu::Buffer& power;
+    const KdTree& tree;
+    const EstimateSettings& settings;
+    const gpu::Buffer& irradiance;
+    const Progress& progress;
+
+    Neighborhood look() const {
+        Neighborhood neighborhood{tree, Measure::surface};
+        neighborhood.flatness = settings.flatness;
+        return neighborhood;
+    }
+    // The photon behind the k-th gives the radius; of the disc the k-th itself.
+    RadiusSettings choose_radius() const {
+        const bool is_disc = settings.kernel == DensityKernel::disc;
+        RadiusSettings radius{is_disc ? settings.k : settings.k + 1};
+        radius.cuts_ties = true;
+        radius.includes_last = is_disc;
+        return radius;
+    }
+    GatherKernel name_kernel(const gpu::Buffer& radii, const gpu::Buffer& result_rows) const {
+        return {"estimate/estimate_irradiance.comp",
+                {"CUT_TIES", "BY_ID", "KERNEL " + std::to_string(static_cast<std::uint32_t>(settings.kernel))},
+                {{"radii", radii}, {"power_object", power}, {"result_rows", result_rows}, {"irradiance", irradiance}}};
+    }
+
+    // Every point by itself.
+    void run(const PointSet& points, const gpu::Buffer& result_rows) const {
+        const Queries queries{points.count, &points.points, &points.normals};
+        const gpu::Buffer radii(device, points.count * RADIUS_BYTES, "radii of estimates");
+        const RadiusSettings radius = choose_radius();
+        find_radii(device, look(), queries, radius, radii, STAGE, progress);
+        gather(device, look(), queries, name_kernel(radii, result_rows), make_gather_settings(look(), radius.rank), STAGE,
+               progress);
+    }
+
+    // Points that stand together share a radius where they may; returns those that may not.
+    std::vector<std::uint32_t> run_shared(const PointSet& points, const gpu::Buffer& result_rows) const {
+        const std::uint64_t leaders = points.count / points.group;
+        const gpu::Buffer radii(device, leaders * RADIUS_BYTES, "radii of estimates");
+        RadiusSettings radius = choose_radius();
+        radius.stride = points.group;
+        find_radii(device, look(), {leaders, &points.points, &points.normals}, radius, radii, STAGE, progress);
+        shared::GatherSettings push = make_gather_settings(look(), radius.rank);
+        push.stride = points.group;
+        return gather_once(device, look(), {points.count, &points.points, &points.normals},
+                           name_kernel(radii, result_rows), std::as_bytes(std::span(&push, 1)), STAGE, progress);
+    }
+};
+
+gpu::Buffer take_rows(gpu::Device& device, const gpu::Buffer& buffer, std::uint64_t count,
+                      std::span<const std::uint32_t> rows) {
+    const std::vector<glm::vec4> all = buffer.read<glm::vec4>(count);
+    std::vector<glm::vec4> taken;
+    for (const std::uint32_t row : rows)
+        taken.push_back(all[row]);
+    return gpu::make_buffer(device, taken, "points");
+}
+
 } // namespace
 
 gpu::Buffer estimate_irradiance(gpu::Device& device, const gpu::Buffer& power, const KdTree& tree,
-                                const gpu::Buffer& points, const gpu::Buffer& normals, const gpu::Buffer& result_rows,
-                                std::uint64_t count, const EstimateSettings& settings, const Progress& progress) {
+                                const PointSet& points, const gpu::Buffer& result_rows,
+                                const EstimateSettings& settings, const Progress& progress) {
     require_k(settings.k);
-    gpu::Buffer irradiance(device, count * sizeof(glm::vec4), "irradiance");
+    gpu::Buffer irradiance(device, points.count * sizeof(glm::vec4), "irradiance");
     if (tree.count == 0) {
         gpu::Commands commands(device, STAGE);
         commands.fill(irradiance, 0);
         commands.run();
         return irradiance;
     }
-    Neighborhood neighborhood{tree, Measure::surface};
-    neighborhood.flatness = settings.flatness;
-    const Queries queries{count, &points, &normals};
-    const gpu::Buffer radii(device, count * RADIUS_BYTES, "radii of estimates");
-    // The photon behind the k-th gives the radius; of the disc the k-th itself.
-    const bool is_disc = settings.kernel == DensityKernel::disc;
-    RadiusSettings radius{is_disc ? settings.k : settings.k + 1};
-    radius.cuts_ties = true;
-    radius.includes_last = is_disc;
-    find_radii(device, neighborhood, queries, radius, radii, STAGE, progress);
-    const GatherKernel kernel{
-        "estimate/estimate_irradiance.comp",
-        {"CUT_TIES", "BY_ID", "KERNEL " + std::to_string(static_cast<std::uint32_t>(settings.kernel))},
-        {{"radii", radii}, {"power_object", power}, {"result_rows", result_rows}, {"irradiance", irradiance}}};
-    gather(device, neighborhood, queries, kernel, make_gather_settings(neighborhood, radius.rank), STAGE, progress);
+    const Estimate estimate{device, power, tree, settings, irradiance, progress};
+    if (points.group == 1) {
+        estimate.run(points, result_rows);
+        return irradiance;
+    }
+    const std::vector<std::uint32_t> left = estimate.run_shared(points, result_rows);
+    if (left.empty())
+        return irradiance;
+    const gpu::Buffer places = take_rows(device, points.points, points.count, left);
+    const gpu::Buffer normals = take_rows(device, points.normals, points.count, left);
+    const std::vector<std::uint32_t> rows = result_rows.read<std::uint32_t>(points.count);
+    std::vector<std::uint32_t> left_rows;
+    for (const std::uint32_t point : left)
+        left_rows.push_back(rows[point]);
+    estimate.run({places, normals, left.size()}, gpu::make_buffer(device, left_rows, "points"));
     return irradiance;
 }
 
@@ -49,8 +110,9 @@ gpu::Buffer estimate_irradiance_at(gpu::Device& device, const gpu::Buffer& power
         std::transform(order.begin(), order.end(), ordered.begin(), [&](std::uint32_t i) { return values[i]; });
         return gpu::make_buffer(device, ordered, "points");
     };
-    return estimate_irradiance(device, power, tree, upload(points), upload(normals),
-                               gpu::make_buffer(device, order, "points"), order.size(), settings, progress);
+    const gpu::Buffer places = upload(points), directions = upload(normals);
+    return estimate_irradiance(device, power, tree, {places, directions, order.size()},
+                               gpu::make_buffer(device, order, "points"), settings, progress);
 }
 
 } // namespace photonloupe

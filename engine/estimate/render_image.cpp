@@ -83,7 +83,8 @@ void Renderer::light_direct(const FilmScratch& scratch) {
 
 gpu::Buffer Renderer::gather(const FilmScratch& scratch, const gpu::Buffer& power, const Progress& progress) {
     const std::uint64_t slots = std::uint64_t{film_push.sample_count} * film_push.slot_count;
-    return estimate_irradiance(device, power, map->tree, scratch.hit_point, scratch.hit_normal, scratch.slots, slots,
+    return estimate_irradiance(device, power, map->tree,
+                               {scratch.hit_point, scratch.hit_normal, slots, settings.samples}, scratch.slots,
                                settings.estimate, progress);
 }
 

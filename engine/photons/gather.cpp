@@ -155,6 +155,7 @@ shared::GatherSettings make_gather_settings(const Neighborhood& neighborhood, st
     settings.leaf_level = neighborhood.tree.leaf_level;
     settings.rank = rank;
     settings.batches = BATCHES;
+    settings.stride = 1;
     settings.flatness = neighborhood.flatness;
     return settings;
 }
@@ -185,6 +186,7 @@ void find_radii(gpu::Device& device, const Neighborhood& neighborhood, const Que
     shared::GatherSettings push = make_gather_settings(neighborhood, settings.rank);
     push.includes_last = settings.includes_last ? 1 : 0;
     push.carry = settings.carry;
+    push.stride = settings.stride;
     const std::span<std::byte> bytes = std::as_writable_bytes(std::span(&push, 1));
     const std::vector<std::uint32_t> left = run_side_by_side(about, {"photons/find_radii.comp", 0, searching, {}},
                                                              {{"radii", radii}}, bytes, 0, queries.count, false);
@@ -201,6 +203,16 @@ void find_radii(gpu::Device& device, const Neighborhood& neighborhood, const Que
     defines.emplace_back("SINGLY");
     run_singly(about, {"photons/count_ties.comp", 0, defines, {}}, {{"radii", radii}}, bytes, uncounted,
                SAVED_WALK_WORDS);
+}
+
+std::vector<std::uint32_t> gather_once(gpu::Device& device, const Neighborhood& neighborhood, const Queries& queries,
+                                       const GatherKernel& kernel, std::span<const std::byte> push,
+                                       const std::string& stage, const Progress& progress) {
+    const Gathering about{device, neighborhood, queries, stage, progress};
+    std::vector<std::string> defines = list_defines(neighborhood, queries);
+    defines.insert(defines.end(), kernel.defines.begin(), kernel.defines.end());
+    return run_side_by_side(about, {kernel.path, 0, defines, {}}, kernel.bindings, push, 0, queries.count,
+                            kernel.takes_subgroups);
 }
 
 void run_gather(gpu::Device& device, const Neighborhood& neighborhood, const Queries& queries,

@@ -26,6 +26,7 @@ struct RadiusSettings {
     bool needs_ties = true; // the weight of photons at just the radius is wanted
     float carry = 0;        // the radii hold squared radii of this share of what is sought; 0: nothing
     bool is_carried = false; // those that are marked as carried over stay
+    std::uint32_t stride = 1; // of so many queries only the first asks; `queries.count` counts those
 };
 
 // Bytes of a radius: a vec4, see shaders/photons/search_radius.glsl.
@@ -51,6 +52,11 @@ shared::GatherSettings make_gather_settings(const Neighborhood& neighborhood, st
 void run_gather(gpu::Device& device, const Neighborhood& neighborhood, const Queries& queries,
                 const GatherKernel& kernel, std::span<const std::byte> push, std::uint64_t first, std::uint64_t count,
                 const std::string& stage, const Progress& progress);
+
+// Runs it once, side by side; returns the queries it left.
+std::vector<std::uint32_t> gather_once(gpu::Device& device, const Neighborhood& neighborhood, const Queries& queries,
+                                       const GatherKernel& kernel, std::span<const std::byte> push,
+                                       const std::string& stage, const Progress& progress);
 
 // The same over all of them.
 template <class Push>

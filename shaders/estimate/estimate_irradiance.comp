@@ -38,6 +38,24 @@ void meet_payload(uint lane, float weight) {
 #pragma binding readonly uint result_rows
 #pragma binding writeonly vec4 irradiance
 
+// Queries that stand together (settings.stride, the samples of a pixel) share the radius of the first of them, where they
+// lie within this share of it on a surface that faces alike. The others are left unanswered, and asked for themselves.
+const float SHARED_DISTANCE = 0.25;
+const float SHARED_COSINE = 0.99;
+
+// The radius of the query's group; false where it has nothing to do with this query.
+bool take_radius(uint query, out vec4 radius) {
+    uint leader = query / settings.stride;
+    radius = radii[leader];
+    if (leader * settings.stride == query) return true;
+    vec3 d = query_points_at(leader * settings.stride).xyz - my_place;
+    vec3 normal = query_normals_at(leader * settings.stride).xyz;
+    float height = dot(my_normal, d) / max(settings.flatness, 1e-20);
+    float near2 = max(dot(d, d), settings.flatness > 0.0 ? height * height : 0.0);
+    return radius.w == float(settings.rank) && near2 <= SHARED_DISTANCE * SHARED_DISTANCE * radius.x &&
+           dot(normal, my_normal) > SHARED_COSINE;
+}
+
 // r: that of a set that takes every photon lies a little beyond the farthest.
 float find_support(vec4 radius) {
     bool is_short = radius.w < float(settings.rank) && KERNEL != 1;
@@ -49,14 +67,17 @@ void main() {
         uint query;
         bool has_query = take_turn(settings, batch, query);
         take_query(query, settings.period, settings.flatness);
-        vec4 radius = radii[query];
+        vec4 radius;
+        bool is_asked = has_query && can_find();
+        bool has_radius = take_radius(query, radius) || !is_asked;
+        radius.w = is_asked && has_radius ? radius.w : 0.0;
         float r = find_support(radius);
         radius2 = r * r;
         flux_sum = vec4(0.0);
         bool is_met = stream_members(settings, has_query && radius.w > 0.0, radius);
         float found = max(radius.w, 1.0);
         if (KERNEL == 1) flux_sum *= (found - 1.0) / found; // disc: (k - 1)/k is unbiased
-        if (has_query && is_met) irradiance[result_rows[query]] = radius.w > 0.0 ? spread_flux(flux_sum, r) : vec4(0.0);
-        report_turn(settings, has_query, is_met, query);
+        if (has_query && is_met && has_radius) irradiance[result_rows[query]] = radius.w > 0.0 ? spread_flux(flux_sum, r) : vec4(0.0);
+        report_turn(settings, has_query, is_met && has_radius, query);
     }
 }

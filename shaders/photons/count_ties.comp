@@ -26,7 +26,7 @@ layout(push_constant) uniform Push { GatherSettings settings; };
 void main() {
     uint query;
     bool has_query = take_turn(settings, 0u, query);
-    take_query(query, settings.period, settings.flatness);
+    take_query(query * settings.stride, settings.period, settings.flatness);
     vec4 radius = radii[query];
     counted_r2 = radius.x;
     nearer_sum = 0.0;

@@ -28,7 +28,7 @@ void main() {
         uint query;
         bool has_query = take_turn(settings, batch, query);
         turn_limit = min(turn_limit, turns + USUAL_TURNS + USUAL_TURNS_EACH * settings.rank);
-        take_query(query, settings.period, settings.flatness);
+        take_query(query * settings.stride, settings.period, settings.flatness);
         vec4 radius = radii[query];
         bool seeks = has_query && can_find() && !is_carried(radius);
         float guess2 = settings.carry > 0.0 ? radius.x * settings.carry : 0.0;

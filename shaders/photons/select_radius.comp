@@ -186,7 +186,7 @@ void write_radius(uint query) {
 void main() {
     uint query = singles[settings.first + gl_WorkGroupID.x].x;
     my_slot = singles[settings.first + gl_WorkGroupID.x].y;
-    take_query(query, settings.period, settings.flatness);
+    take_query(query * settings.stride, settings.period, settings.flatness);
     start_search();
     search_tree();
     if (selection.depth == 0u) write_radius(query);

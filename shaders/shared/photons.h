@@ -76,7 +76,7 @@ struct GatherSettings {
     uint includes_last; // the photon of the rank is a member too
     float flatness;     // largest height above the tangent plane, as a share of r; 0: no test
     float carry;        // the radii hold squared radii of this share of what is sought; 0: nothing
-    uint pad0;
+    uint stride;        // of so many queries the first alone asks; the others may take its radius
     uint pad1;
     uint pad2;
 };
