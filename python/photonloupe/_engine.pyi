@@ -192,6 +192,10 @@ class Relaxation:
     def step(self, progress: object | None = None) -> dict:
         """One step; what it did."""
 
+    @property
+    def notes(self) -> list[str]:
+        """What makes parameters useless here, with the cure."""
+
     def read(self) -> tuple:
         """(map, state columns by photon id, photons off their surface)."""
 
@@ -207,7 +211,7 @@ def measure_spectrum(device: Device, points: Annotated[NDArray[numpy.float64], d
 
 def start_relaxation(device: Device, photons: PhotonMap, scene: object | None, settings: dict, progress: object | None = None) -> Relaxation:
     """
-    Measure the constraint and stand ready; settings: steps, neighbors, over_relaxation, limit, repel, beta, search, tree, diffuse_flux, period, descriptor, constraint, constraint_neighbors, thresholds.
+    Measure the constraint and stand ready; settings: steps, neighbors, over_relaxation, limit, repel, beta, search, diffuse_flux, period, descriptor, constraint, constraint_neighbors, thresholds.
     """
 
 def estimate_irradiance(device: Device, photons: PhotonMap, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', writable=False)], normals: Annotated[NDArray[numpy.float32], dict(shape=(None, 3), order='C', writable=False)], k: int, kernel: str, progress: object | None = None) -> NDArray[numpy.float32]:

@@ -156,7 +156,7 @@ KINDS = {
     "facing planes": Kind(make_facing_planes),
     "stacked planes": Kind(make_stacked_planes),
     "two-sided sheet": Kind(make_two_sided_sheet),
-    "wide floor": Kind(make_wide_floor, along_axes=False), # so wide that squared distances are rounded to metres
+    "wide floor": Kind(make_wide_floor, along_axes=False),  # so wide that squared distances are rounded to metres
     "one point": Kind(make_point),
     "one line": Kind(make_line),
     "tilted planes": Kind(make_tilted_planes, along_axes=False),
