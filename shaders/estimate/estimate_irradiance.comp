@@ -21,8 +21,8 @@ void accumulate(Candidate other, float weight) {
 }
 
 // By address no descriptor would stop lanes that read nothing sensible.
-void load_payload(uint position) {
-    uint photon = min(floatBitsToUint(tree_positions_at(position).w), settings.photon_count - 1u);
+void load_payload(Candidate mine, uint position) {
+    uint photon = min(mine.id, settings.photon_count - 1u);
     tile_power = power_object_at(photon).rgb;
 }
 

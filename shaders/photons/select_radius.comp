@@ -71,7 +71,7 @@ void list_leaf(uint leaf) {
         turns += 2u;
         Candidate other = load_candidate(min(base + LANE, end - 1u), base + LANE < end);
         uvec3 entry = uvec3(floatBitsToUint(measure_candidate(other)), break_tie(other), other.id);
-        bool found = entry.x < NO_BOUND && (selection.last.x == NO_BOUND || is_before(entry, selection.last));
+        bool found = base + LANE < end && entry.x < NO_BOUND && (selection.last.x == NO_BOUND || is_before(entry, selection.last));
         uvec4 ballot = subgroupBallot(found);
         if (found) list[selection.count + subgroupBallotExclusiveBitCount(ballot)] = entry;
         selection.count += subgroupBallotBitCount(ballot);

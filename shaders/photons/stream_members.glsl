@@ -3,8 +3,8 @@
 // the tree is walked once and every photon of the tiles within reach is met with its weight: 1 for members, 0 for
 // others; of photons at just the radius, where they share what is left of the rank, a part. A photon meets itself.
 // The kernel defines void accumulate(Candidate other, float weight), EACH_SUM(DO), the calls DO(variable) for all that it
-// sums in, and where other photons bring more along (define HAS_PAYLOAD) void load_payload(uint position) for the photon
-// a lane holds of a tile, and void meet_payload(uint lane, float weight). CUT_TIES: see photons/find_radii.comp.
+// sums in, and where other photons bring more along (define HAS_PAYLOAD) void load_payload(Candidate mine, uint position) for the
+// photon a lane holds of a tile, and void meet_payload(uint lane, float weight). CUT_TIES: see photons/find_radii.comp.
 // In and out: saved_walks (with SINGLY: a walk that is not over, and the sums so far).
 #include "photons/visit_tiles.glsl"
 #pragma binding coherent uint saved_walks
@@ -30,7 +30,7 @@ void member_tile(uint next, uint end) {
     position = min(position, member_map_size - 1u);
     Candidate mine = load_candidate(position, valid);
 #ifdef HAS_PAYLOAD
-    load_payload(position);
+    load_payload(mine, position);
 #define MEET_PAYLOAD(lane, weight) meet_payload(lane, weight);
 #else
 #define MEET_PAYLOAD(lane, weight)

@@ -15,7 +15,7 @@ float my_r2;
 float candidate_weight;
 #define EACH_SUM(DO) DO(power_sum.x) DO(power_sum.y) DO(power_sum.z) DO(weight_sum)
 
-void load_payload(uint position) { tile_power = tree_power_at(position).rgb; }
+void load_payload(Candidate mine, uint position) { tile_power = tree_power_at(position).rgb; }
 
 // The photon meets itself at weight 1, which is its own share.
 void accumulate(Candidate other, float weight) {

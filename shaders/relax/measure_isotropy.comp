@@ -19,7 +19,7 @@ vec3 tile_position;
 
 void accumulate(Candidate other, float weight) {}
 
-void load_payload(uint position) { tile_position = tree_positions_at(position).xyz; }
+void load_payload(Candidate mine, uint position) { tile_position = tree_positions_at(position).xyz; }
 
 // The photon itself adds nothing but to the count.
 void meet_payload(uint lane, float weight) {

@@ -13,7 +13,7 @@ vec3 tile_offset;
 
 void accumulate(Candidate other, float weight) {}
 
-void load_payload(uint position) { tile_offset = offsets_at(position).xyz; }
+void load_payload(Candidate mine, uint position) { tile_offset = offsets_at(position).xyz; }
 
 void meet_payload(uint lane, float weight) {
     vec2 g = project_vector(share_vector(tile_offset, lane));

@@ -59,7 +59,7 @@ vec3 constrain_move(vec3 f, uint position) {
 
 // Photons at one place are pushed apart by what floats can tell, each along its own tangent direction.
 vec3 push_apart(uint position, Reach reach) {
-    uint id = floatBitsToUint(tree_positions_at(position).w);
+    uint id = my_self;
     float s, c;
     sin_cos(2.0 * PI * to_unit_float(random_bits(0u, id, 0u, 0u)), s, c);
     set_tangents();

@@ -14,7 +14,8 @@ import photonloupe as pl
 Doubles = NDArray[np.float64]
 Random = np.random.Generator
 
-MOST_COLUMNS = 13
+# Columns that are independent of each other: a vec4 more or less, and the most.
+WIDTHS = (1, 2, 3, 4, 6, 13)
 # A direction needs somewhere to come from; the ring's lamp (scenes/ring), or near enough for other scenes.
 LAMP = np.array([0.0, 1.6, 2.0])
 CLUSTERS, CLUSTER_SIZE = 100, 1e-4
@@ -131,7 +132,7 @@ def make_periodic(photons: pl.PhotonMap, random: Random) -> OddParameters:
 
 
 MAKERS: dict[str, Callable[[pl.PhotonMap, Random], Doubles | OddParameters]] = {
-    **{f"uniform {width}": make_uniform(width) for width in range(1, MOST_COLUMNS + 1)},
+    **{f"uniform {width}": make_uniform(width) for width in WIDTHS},
     "scalar": make_scalar,
     "signature": make_signature,
     "constant": make_constant,
