@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "gpu/commands.h"
+#include "photons/kernel_macros.h"
 #include "photons/kd_tree.h"
 
 namespace photonloupe {
@@ -83,25 +84,6 @@ private:
     double m_total, m_done = 0, m_work = 0, m_batch = FIRST_BATCH;
     std::unique_ptr<gpu::Commands> m_commands;
 };
-
-// Batcher's odd-even merge sort as text: the pairs to compare, in order.
-std::string write_network(std::uint32_t size) {
-    std::string text;
-    for (std::uint32_t p = 1; p < size; p *= 2)
-        for (std::uint32_t k = p; k >= 1; k /= 2)
-            for (std::uint32_t j = k % p; j + k < size; j += 2 * k)
-                for (std::uint32_t i = 0; i < std::min(k, size - j - k); ++i)
-                    if ((i + j) / (2 * p) == (i + j + k) / (2 * p))
-                        text += " DO(" + std::to_string(i + j) + ", " + std::to_string(i + j + k) + ")";
-    return text;
-}
-
-std::string list_keys(std::uint32_t size) {
-    std::string text;
-    for (std::uint32_t key = 0; key < size; ++key)
-        text += " DO(" + std::to_string(key) + ")";
-    return text;
-}
 
 class TreeBuilder {
 public:
@@ -178,8 +160,8 @@ private:
         const std::uint32_t size = std::max(32u, std::bit_ceil(largest_node));
         gpu::KernelSource kernel{"photons/split_small_nodes.comp", 64, m_defines, {}};
         kernel.defines.push_back("SORT_SIZE " + std::to_string(size));
-        kernel.defines.push_back("EACH_KEY(DO)" + list_keys(size));
-        kernel.defines.push_back("SORT_NETWORK(DO)" + write_network(size));
+        kernel.defines.push_back(write_each("EACH_KEY", 0, size));
+        kernel.defines.push_back(write_sort_network(size));
         return kernel;
     }
 

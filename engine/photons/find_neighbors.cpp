@@ -2,6 +2,8 @@
 // Finds the radius of every query, then lists who lies within and puts the lists in order.
 #include "photons/find_neighbors.h"
 
+#include "photons/kernel_macros.h"
+
 namespace photonloupe {
 namespace {
 
@@ -12,31 +14,11 @@ constexpr std::uint32_t LARGEST_WAYS = 8;         // runs merged at a time
 constexpr std::uint64_t LIST_BYTES = 64ull << 20;   // of the lists under way together
 constexpr std::uint64_t PAIR_BYTES = sizeof(glm::uvec2);
 
-// Comparators of Batcher's odd-even merge sort for `size` (a power of two) values, as calls EXCHANGE(i, j).
-std::string write_sort_network(std::uint32_t size) {
-    std::string text = "SORT_NETWORK";
-    for (std::uint32_t p = 1; p < size; p *= 2)
-        for (std::uint32_t k = p; k >= 1; k /= 2)
-            for (std::uint32_t j = k % p; j + k < size; j += 2 * k)
-                for (std::uint32_t i = 0; i < std::min(k, size - j - k); ++i)
-                    if ((i + j) / (2 * p) == (i + j + k) / (2 * p))
-                        text += " EXCHANGE(" + std::to_string(i + j) + "u, " + std::to_string(i + j + k) + "u)";
-    return text;
-}
-
-// A macro that calls its argument with 0 … count - 1.
-std::string write_each(const std::string& name, std::uint32_t count, const char* suffix) {
-    std::string text = name + "(DO)";
-    for (std::uint32_t i = 0; i < count; ++i)
-        text += " DO(" + std::to_string(i) + suffix + ")";
-    return text;
-}
-
 std::vector<std::string> list_sort_defines(std::uint32_t k) {
     const std::uint32_t ways = std::clamp((k + SORT_RUN - 1) / SORT_RUN, 2u, LARGEST_WAYS);
     return {"RUN " + std::to_string(SORT_RUN) + "u", write_sort_network(SORT_RUN),
-            write_each("EACH_OF_RUN", SORT_RUN, "u"), "WAYS " + std::to_string(ways) + "u",
-            write_each("EACH_WAY", ways, "")};
+            write_each("EACH_OF_RUN", 0, SORT_RUN, "u"), "WAYS " + std::to_string(ways) + "u",
+            write_each("EACH_WAY", 0, ways)};
 }
 
 } // namespace

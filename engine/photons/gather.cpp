@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "photons/kernel_macros.h"
+
 namespace photonloupe {
 namespace {
 
@@ -25,13 +27,6 @@ constexpr std::uint32_t SAVED_SEARCH_HEAD = 6; // shaders/photons/select_radius.
 // Entries of the shell: all that are sought where that is few, and one more to tell whether it ties.
 std::uint32_t size_shell(std::uint32_t rank) {
     return std::clamp(rank + 1, SMALLEST_SHELL, LARGEST_SHELL);
-}
-
-std::string write_each_kept(std::uint32_t count) {
-    std::string text = "EACH_KEPT(DO)";
-    for (std::uint32_t i = 0; i < count; ++i)
-        text += " DO(" + std::to_string(i) + ")";
-    return text;
 }
 
 // Entries of the list that selecting needs: the rank, its growth, a leaf; the last is taken in tiles of a subgroup.
@@ -182,7 +177,7 @@ void find_radii(gpu::Device& device, const Neighborhood& neighborhood, const Que
     std::vector<std::string> searching = defines;
     const std::uint32_t shell = size_shell(settings.rank);
     searching.push_back("SHELL_SIZE " + std::to_string(shell) + "u");
-    searching.push_back(write_each_kept(shell));
+    searching.push_back(write_each("EACH_KEPT", 0, shell));
     shared::GatherSettings push = make_gather_settings(neighborhood, settings.rank);
     push.includes_last = settings.includes_last ? 1 : 0;
     push.carry = settings.carry;

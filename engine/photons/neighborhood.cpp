@@ -4,18 +4,12 @@
 
 #include <cmath>
 
+#include "photons/kernel_macros.h"
+
 namespace photonloupe {
 namespace {
 
 constexpr std::array<const char*, 3> PLANES{"yz", "xz", "xy"}; // without axis 0, 1, 2
-
-// A macro that calls its argument with first … end - 1: loops would count against the device's limit of turns.
-std::string write_each(const std::string& name, std::uint32_t first, std::uint32_t end) {
-    std::string text = name + "(DO)";
-    for (std::uint32_t i = first; i < end; ++i)
-        text += " DO(" + std::to_string(i) + ")";
-    return text;
-}
 
 } // namespace
 

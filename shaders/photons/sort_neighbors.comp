@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Puts the members of each query in order, nearest first, ties by photon id, a query a lane: runs of RUN are sorted by a
-// network in registers, then WAYS runs are merged at a time. Defines: RUN, SORT_NETWORK (its comparators EXCHANGE(i, j)),
+// network in registers, then WAYS runs are merged at a time. Defines: RUN, SORT_NETWORK(DO): its comparators DO(i, j),
 // EACH_OF_RUN(DO): DO(0u) … DO(RUN - 1), WAYS, EACH_WAY(DO): DO(0) … DO(WAYS - 1).
 // Inputs: found_counts, result_rows (the row of each query's answer). In and out: found_neighbors (rows of `k` pairs;
 // behind the last row as much room again). Outputs: neighbor_ids, neighbor_distances; missing ones are -1 and inf.
@@ -27,7 +27,7 @@ void sort_run(uint row, uint first, uint count) {
 #define LOAD(i) pair[i] = first + i < count ? found_neighbors[row + min(first + i, max(count, 1u) - 1u)] : NOBODY;
 #define STORE(i) if (first + i < count) found_neighbors[row + first + i] = pair[i];
     EACH_OF_RUN(LOAD)
-    SORT_NETWORK
+    SORT_NETWORK(EXCHANGE)
     EACH_OF_RUN(STORE)
 }
 

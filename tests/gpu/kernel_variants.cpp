@@ -37,7 +37,7 @@ const std::vector<std::string> SPACES{"",
 const std::vector<std::string> PARAMETERS{SPACES[5], SPACES[6]};
 const std::vector<std::string> OWN{"", "OWN_PHOTONS"};
 const std::vector<std::string> TIES{"", "CUT_TIES\n#define BY_ID", "CUT_TIES\n#define BY_ID\n#define WITHOUT_SELF"};
-const std::vector<std::string> RUN{"RUN 2u\n#define EACH_OF_RUN(DO) DO(0u) DO(1u)"}, NETWORK{"SORT_NETWORK EXCHANGE(0, 1)"},
+const std::vector<std::string> RUN{"RUN 2u\n#define EACH_OF_RUN(DO) DO(0u) DO(1u)"}, NETWORK{"SORT_NETWORK(DO) DO(0, 1)"},
     WAYS{"WAYS 2u\n#define EACH_WAY(DO) DO(0) DO(1)"};
 const std::vector<std::string> SHELL{"SHELL_SIZE 2u\n#define EACH_KEPT(DO) DO(0) DO(1)"};
 const std::vector<std::string> RANGES{"", "RANGE_ROWS 2u"};
