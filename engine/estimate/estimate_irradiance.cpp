@@ -17,10 +17,12 @@ struct Estimate {
     const EstimateSettings& settings;
     const gpu::Buffer& irradiance;
     const Progress& progress;
+    bool has_one_normal = find_one_normal(tree);
 
     Neighborhood look() const {
         Neighborhood neighborhood{tree, Measure::surface};
         neighborhood.flatness = settings.flatness;
+        neighborhood.has_one_normal = has_one_normal;
         return neighborhood;
     }
     // The photon behind the k-th gives the radius; of the disc the k-th itself.

@@ -97,9 +97,9 @@ std::string find_missing_requirement(VkPhysicalDevice device, const Properties& 
     if (!read_features(device).v12.bufferDeviceAddress)
         return "lacks bufferDeviceAddress";
     const VkSubgroupFeatureFlags needed = VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_VOTE_BIT |
-                                          VK_SUBGROUP_FEATURE_ARITHMETIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT;
+                                          VK_SUBGROUP_FEATURE_ARITHMETIC_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
     if ((properties.v11.subgroupSupportedOperations & needed) != needed)
-        return "lacks subgroup vote, arithmetic or ballot";
+        return "lacks subgroup vote, arithmetic or shuffle";
     if (properties.v11.subgroupSize < SMALLEST_SUBGROUP)
         return "has subgroups narrower than 8";
     if (!properties.v12.shaderSignedZeroInfNanPreserveFloat32)

@@ -12,6 +12,8 @@ namespace {
 
 // Vulkan guarantees 128 bytes of push constants everywhere; settings structs stay below.
 constexpr std::uint32_t PUSH_CONSTANT_BYTES = 128;
+// Of the specialisation constant in shaders/shared/subgroup.glsl.
+constexpr std::uint32_t SUBGROUP_SIZE_ID = 63;
 
 std::string make_key(const KernelSource& source) {
     std::string key = source.path + '|' + std::to_string(source.workgroup_size);
@@ -69,6 +71,8 @@ VkPipeline create_pipeline(const Device::Impl& device, const KernelSource& sourc
     std::vector<VkSpecializationMapEntry> entries;
     for (std::uint32_t id = 0; id < constants.size(); ++id)
         entries.push_back({id, id * 4, 4});
+    entries.push_back({SUBGROUP_SIZE_ID, static_cast<std::uint32_t>(constants.size()) * 4, 4});
+    constants.push_back(device.limits.subgroup_size);
     const VkSpecializationInfo specialization{static_cast<std::uint32_t>(entries.size()), entries.data(),
                                               constants.size() * 4, constants.data()};
     VkPipelineShaderStageRequiredSubgroupSizeCreateInfo subgroup{

@@ -32,6 +32,13 @@ std::string find_flat_axes(const KdTree& tree) {
     return "";
 }
 
+bool find_one_normal(const KdTree& tree) {
+    if (tree.count == 0)
+        return false;
+    const std::vector<glm::vec4> normals = tree.normal_boxes.read<glm::vec4>(2, 2);
+    return glm::vec3(normals[0]) == glm::vec3(normals[1]);
+}
+
 std::vector<std::string> list_defines(const Neighborhood& neighborhood, const Queries& queries) {
     std::vector<std::string> defines;
     const bool is_in_space = neighborhood.measure != Measure::parameters;
@@ -45,6 +52,8 @@ std::vector<std::string> list_defines(const Neighborhood& neighborhood, const Qu
         defines.push_back("FLAT_AXES " + neighborhood.flat_axes);
     else if (neighborhood.measure == Measure::surface)
         defines.emplace_back("ON_SURFACE");
+    if (neighborhood.has_one_normal)
+        defines.emplace_back("ONE_NORMAL");
     if (neighborhood.period != std::array<float, 3>{})
         defines.emplace_back("PERIODIC");
     const bool needs_rows = !is_in_space || neighborhood.is_layered || neighborhood.intervals;

@@ -31,6 +31,7 @@ struct Neighborhood {
     float flatness = SURFACE_FLATNESS;        // of Measure::surface; 0: heights do not matter
     std::array<float, 3> period{};            // metres after which space repeats; 0: it does not
     std::string flat_axes;                    // "xz": all photons and queries lie in one plane of these axes; "": not
+    bool has_one_normal = false;              // all photons share a normal
 };
 
 // From where; all buffers in the order in which the queries are asked.
@@ -48,6 +49,9 @@ Queries ask_photons(const KdTree& tree, const gpu::Buffer* reach2 = nullptr);
 
 // The axes of the plane in which all photons lie, if they share a normal along the third.
 std::string find_flat_axes(const KdTree& tree);
+
+// Whether all photons have the same normal.
+bool find_one_normal(const KdTree& tree);
 
 // What kernels that include photons/candidates.glsl are specialised to.
 std::vector<std::string> list_defines(const Neighborhood& neighborhood, const Queries& queries);

@@ -43,7 +43,8 @@ float measure_box(uint node) {
 
 float measure_photon(uint position, vec3 offset) {
     if (settings.flatness > 0.0)
-        return measure_on_surface(offset, normal, tree_normals_at(position).xyz, settings.flatness);
+        return faces_alike(normal, tree_normals_at(position).xyz) ? measure_on_surface(offset, normal, settings.flatness)
+                                                                  : INFINITY;
     precise float squared = offset.x * offset.x + offset.y * offset.y + offset.z * offset.z;
     return squared;
 }

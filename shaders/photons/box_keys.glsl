@@ -9,9 +9,9 @@ float read_ordered(uint key) { return read_key(int(key ^ 0x80000000u)); }
 
 void widen_box(uint node, vec3 lo, vec3 hi) {
     for (uint i = 0u; i < 3u; ++i) {
-        uint least = subgroupMin(order_key(lo[i]));
-        uint greatest = subgroupMin(~order_key(hi[i]));
-        if (subgroupElect()) {
+        uint least = find_least(order_key(lo[i]));
+        uint greatest = find_least(~order_key(hi[i]));
+        if (gl_SubgroupInvocationID == 0u) {
             atomicMin(box_keys[6u * node + i], least);
             atomicMin(box_keys[6u * node + 3u + i], greatest);
         }

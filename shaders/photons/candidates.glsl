@@ -3,7 +3,8 @@
 // of the map (define OWN_PHOTONS: query i stands at tree position i) or a point, with what it brings along.
 //
 // As a rule the measure is the squared distance in space. FLAT_AXES: all photons and queries lie in one plane and share
-// a normal. ON_SURFACE: only those of the same surface, by the radius that takes them in (METHODS §2). SAME_LAYER: only
+// a normal. ON_SURFACE: only those of the same surface, by the radius that takes them in (METHODS §2); ONE_NORMAL: all
+// photons share a normal. SAME_LAYER: only
 // those of the query's layer number and, if it is positive, within its reach in parameter space (METHODS §4).
 // IN_INTERVALS: only those whose rows lie between two others. IN_PARAMETER_SPACE: the measure is the squared distance
 // there, among those of the same layer number. BY_ID: candidates bring their id along. WITHOUT_SELF: a query does not find
@@ -24,11 +25,15 @@
 #include "photons/layers.glsl"
 #endif
 
+#if defined(ON_SURFACE) && !defined(ONE_NORMAL)
+#define OWN_NORMALS // candidates bring them along
+#endif
+
 struct Candidate {
 #ifndef IN_PARAMETER_SPACE
     Place place;
 #endif
-#ifdef ON_SURFACE
+#ifdef OWN_NORMALS
     vec3 normal;
 #endif
 #ifdef ROW_COUNT
@@ -39,16 +44,28 @@ struct Candidate {
 #endif
 };
 
-// Where queries lie: those of a batch, or one alone.
-struct Bounds {
-    Place lo, hi;
+// What bounds are measured from, and to: the box about a node's photons.
+struct Query {
+    Place place;
 #ifdef ON_SURFACE
+    vec3 normal;
+#endif
+#ifdef ROW_COUNT
+    Layer layer;
+#endif
+    float reach2; // squared, in parameter space; of layers
+};
+
+struct Node {
+#ifndef IN_PARAMETER_SPACE
+    Place lo, hi;
+#endif
+#ifdef OWN_NORMALS
     vec3 normal_lo, normal_hi;
 #endif
 #ifdef ROW_COUNT
     Layer layer_lo, layer_hi;
 #endif
-    float reach2; // squared, in parameter space; of layers
 };
 
 Place my_place;
@@ -70,7 +87,7 @@ Candidate load_candidate(uint position, bool valid) {
 #ifndef IN_PARAMETER_SPACE
     c.place = valid ? take_place(photon) : FAR_PLACE;
 #endif
-#ifdef ON_SURFACE
+#ifdef OWN_NORMALS
     c.normal = tree_normals_at(position).xyz;
 #endif
 #ifdef ROW_COUNT
@@ -84,7 +101,7 @@ Candidate load_candidate(uint position, bool valid) {
 }
 
 vec3 share_vector(vec3 mine, uint lane) {
-    return vec3(subgroupBroadcast(mine.x, lane), subgroupBroadcast(mine.y, lane), subgroupBroadcast(mine.z, lane));
+    return vec3(broadcast(mine.x, lane), broadcast(mine.y, lane), broadcast(mine.z, lane));
 }
 
 Candidate share_candidate(Candidate mine, uint lane) {
@@ -92,14 +109,14 @@ Candidate share_candidate(Candidate mine, uint lane) {
 #ifndef IN_PARAMETER_SPACE
     c.place = share_place(mine.place, lane);
 #endif
-#ifdef ON_SURFACE
+#ifdef OWN_NORMALS
     c.normal = share_vector(mine.normal, lane);
 #endif
 #ifdef ROW_COUNT
     c.layer = share_layer(mine.layer, lane);
 #endif
 #ifdef BY_ID
-    c.id = subgroupBroadcast(mine.id, lane);
+    c.id = broadcast(mine.id, lane);
 #endif
     return c;
 }
@@ -110,8 +127,11 @@ Place find_offset(Candidate other) { return wrap_offset(other.place - my_place);
 
 bool may_be_found(Candidate other) {
     bool found = true;
+#ifdef OWN_NORMALS
+    found = faces_alike(my_normal, other.normal);
+#endif
 #ifdef PERIODIC
-    found = other.place.x < FAR_BOUND; // wrapped, a far place may be near
+    found = found && other.place.x < FAR_BOUND; // wrapped, a far place may be near
 #endif
 #ifdef IN_INTERVALS
     found = found && is_between(other.layer, interval_lo, interval_hi);
@@ -139,7 +159,7 @@ float measure_candidate(Candidate other) {
 #else
     Place d = find_offset(other);
 #ifdef ON_SURFACE
-    float measure = measure_on_surface(d, my_normal, other.normal, my_flatness);
+    float measure = measure_on_surface(d, my_normal, my_flatness);
 #else
     float measure = square_length(d);
 #endif
@@ -157,83 +177,72 @@ uint break_tie(Candidate other) {
 #endif
 }
 
-// No photon of the node is nearer to a query within the bounds; INFINITY where none may be found.
-float bound_measure(Bounds from, uint node) {
-    float bound = 0.0;
-#ifdef IN_PARAMETER_SPACE
-    bound = measure_row_gap(from.layer_lo, from.layer_hi, node);
-#else
-    Place lo = take_place(tree_nodes_at(2u * node)), hi = take_place(tree_nodes_at(2u * node + 1u));
-    bound = measure_box_gap(from.lo, from.hi, lo, hi);
+Query get_query() {
+    Query own;
+    own.place = my_place;
 #ifdef ON_SURFACE
-    vec3 normal_lo = normal_boxes_at(2u * node).xyz, normal_hi = normal_boxes_at(2u * node + 1u).xyz;
-#ifndef PERIODIC
-    bound = max(bound, bound_height2(from.normal_lo, from.normal_hi, lo - from.hi, hi - from.lo, my_flatness));
-#endif
-    bound = may_share_surface(from.normal_lo, from.normal_hi, normal_lo, normal_hi) ? bound : INFINITY;
-#endif
-#ifdef IN_INTERVALS
-    bound = may_be_between(interval_lo, interval_hi, node) ? bound : INFINITY;
-#elif defined(SAME_LAYER)
-    bound = measure_row_gap(from.layer_lo, from.layer_hi, node) <= from.reach2 ? bound : INFINITY;
-#endif
-#endif
-    return bound;
-}
-
-// The lane's own query alone.
-Bounds bound_mine() {
-    Bounds own;
-    own.lo = my_place;
-    own.hi = my_place;
-#ifdef ON_SURFACE
-    own.normal_lo = my_normal;
-    own.normal_hi = my_normal;
+    own.normal = my_normal;
 #endif
 #ifdef ROW_COUNT
-    own.layer_lo = my_layer;
-    own.layer_hi = my_layer;
-#ifdef IN_PARAMETER_SPACE
-    if (get_number(my_layer) == NO_LAYER) own.layer_hi.row[0].x = INFINITY;
-#endif
+    own.layer = my_layer;
 #endif
     own.reach2 = my_reach2;
     return own;
 }
 
-// Those of all lanes that count.
-Bounds join_bounds(Bounds own, bool counts) {
-    Bounds all;
-    all.lo = find_least(own.lo, counts);
-    all.hi = find_most(own.hi, counts);
-#define LEAST_OF(v) subgroupMin(counts ? v : INFINITY)
-#define MOST_OF(v) subgroupMax(counts ? v : -INFINITY)
+Query share_query(Query mine, uint lane) {
+    Query query = mine;
+#ifndef IN_PARAMETER_SPACE
+    query.place = share_place(mine.place, lane);
+#endif
 #ifdef ON_SURFACE
-    all.normal_lo = vec3(LEAST_OF(own.normal_lo.x), LEAST_OF(own.normal_lo.y), LEAST_OF(own.normal_lo.z));
-    all.normal_hi = vec3(MOST_OF(own.normal_hi.x), MOST_OF(own.normal_hi.y), MOST_OF(own.normal_hi.z));
+    query.normal = share_vector(mine.normal, lane);
 #endif
-#ifdef ROW_COUNT
-    all.layer_lo = own.layer_lo;
-    all.layer_hi = own.layer_hi;
-#define JOIN_AXIS(a) all.layer_lo.row[a / 4][a % 4] = LEAST_OF(own.layer_lo.row[a / 4][a % 4]); \
-    all.layer_hi.row[a / 4][a % 4] = MOST_OF(own.layer_hi.row[a / 4][a % 4]);
-    JOIN_AXIS(0)
-    EACH_PARAMETER(JOIN_AXIS)
+#if defined(IN_PARAMETER_SPACE) || defined(SAME_LAYER)
+    query.layer = share_layer(mine.layer, lane);
+    query.reach2 = broadcast(mine.reach2, lane);
 #endif
-    all.reach2 = MOST_OF(own.reach2);
-    return all;
+    return query;
 }
 
-// Squared extent, in the space of the measure.
-float measure_extent(Bounds bounds) {
-#ifdef IN_PARAMETER_SPACE
-    float sum = 0.0;
-#define ADD_EXTENT(a) { float e = bounds.layer_hi.row[a / 4][a % 4] - bounds.layer_lo.row[a / 4][a % 4]; sum += e * e; }
-    EACH_PARAMETER(ADD_EXTENT)
-    return sum;
-#else
-    return square_length(bounds.hi - bounds.lo);
+Node load_node(uint heap) {
+    Node node;
+#ifndef IN_PARAMETER_SPACE
+    node.lo = take_place(tree_nodes_at(2u * heap));
+    node.hi = take_place(tree_nodes_at(2u * heap + 1u));
 #endif
+#ifdef OWN_NORMALS
+    node.normal_lo = normal_boxes_at(2u * heap).xyz;
+    node.normal_hi = normal_boxes_at(2u * heap + 1u).xyz;
+#endif
+#ifdef ROW_COUNT
+    load_layer_box(heap, node.layer_lo, node.layer_hi);
+#endif
+    return node;
+}
+
+// No photon of the node is nearer to the query; INFINITY where none may be found.
+float bound_measure(Query from, Node node) {
+    float bound = 0.0;
+#ifdef IN_PARAMETER_SPACE
+    bound = measure_row_gap(from.layer, node.layer_lo, node.layer_hi);
+#else
+    bound = measure_box_gap(from.place, node.lo, node.hi);
+#ifdef ON_SURFACE
+#ifndef PERIODIC
+    bound = max(bound, bound_height2(from.normal, node.lo - from.place, node.hi - from.place, my_flatness));
+#endif
+#ifdef OWN_NORMALS
+    bound = may_face_alike(from.normal, node.normal_lo, node.normal_hi) ? bound : INFINITY;
+#endif
+#endif
+#ifdef IN_INTERVALS
+    bound = may_be_between(interval_lo, interval_hi, node.layer_lo, node.layer_hi) ? bound : INFINITY;
+#elif defined(SAME_LAYER)
+    bound = measure_row_gap(from.layer, node.layer_lo, node.layer_hi) <= from.reach2 ? bound : INFINITY;
+#endif
+#endif
+    return bound;
 }
 
 // Beyond this no candidate is.
@@ -256,6 +265,9 @@ bool can_find() {
     bool can = true;
 #ifdef ON_SURFACE
     can = my_normal != vec3(0.0);
+#ifdef ONE_NORMAL
+    can = can && faces_alike(my_normal, normal_boxes_at(2u).xyz);
+#endif
 #endif
 #ifdef IN_PARAMETER_SPACE
     can = get_number(my_layer) >= 0.0; // not unset

@@ -7,14 +7,14 @@
 const uint SPREAD_SAMPLES = 64u;
 
 Spread join_spread(Spread spread) {
-    spread.count = subgroupAdd(spread.count);
+    spread.count = sum_lanes(spread.count);
     for (uint i = 0u; i < 3u; ++i) {
-        spread.sum[i] = subgroupAdd(spread.sum[i]);
-        spread.squares[i] = subgroupAdd(spread.squares[i]);
+        spread.sum[i] = sum_lanes(spread.sum[i]);
+        spread.squares[i] = sum_lanes(spread.squares[i]);
     }
     for (uint row = 0u; row < RANGE_ROWS; ++row) {
-        spread.row_sums[row] = subgroupAdd(spread.row_sums[row]);
-        spread.row_squares[row] = subgroupAdd(spread.row_squares[row]);
+        spread.row_sums[row] = sum_lanes(spread.row_sums[row]);
+        spread.row_squares[row] = sum_lanes(spread.row_squares[row]);
     }
     return spread;
 }
@@ -47,7 +47,7 @@ uint choose_sampled_axis(uint first, uint n) {
     prefer(extent.z, 2u, greatest, axis);
     for (uint row = 0u; row < RANGE_ROWS; ++row)
         for (uint i = 0u; i < 4u; ++i) {
-            float scaled = (subgroupMax(row_hi[row][i]) - subgroupMin(row_lo[row][i])) * scales[1u + row][i];
+            float scaled = (find_most(row_hi[row][i]) - find_least(row_lo[row][i])) * scales[1u + row][i];
             prefer(scaled, 3u + 4u * row + i, greatest, axis);
         }
     return axis;

@@ -39,9 +39,9 @@ void narrow(inout TreeBracket bracket, uint rank) {
 
 // Appends places to the candidates of the node that begins at `first`.
 void keep(uint place, bool is_kept, uint first, inout uint kept) {
-    uvec4 ballot = subgroupBallot(is_kept);
-    if (is_kept) candidates[first + kept + subgroupBallotExclusiveBitCount(ballot)] = place;
-    kept += subgroupBallotBitCount(ballot);
+    uvec2 ballot = find_lanes(is_kept);
+    if (is_kept) candidates[first + kept + count_before(ballot)] = place;
+    kept += count_lanes(ballot);
 }
 
 // Evenly spaced photons' keys between the limits become candidates.

@@ -10,6 +10,6 @@ void main() {
     Key pivot = get_lo(part.node);
     uint lefts = 0u;
     for (uint i = part.first + LANE; i < part.end; i += WIDTH) lefts += uint(is_less(read_source(i, axis), pivot));
-    lefts = subgroupAdd(lefts);
+    lefts = sum_lanes(lefts);
     if (LANE == 0u) left_counts[gl_WorkGroupID.x] = lefts;
 }

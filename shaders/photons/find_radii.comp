@@ -38,7 +38,7 @@ void main() {
             guess2 = nearest2 < INFINITY ? nearest2 + beyond2 : 0.0;
         }
         bool needs_guess = seeks && guess2 <= 0.0;
-        if (subgroupAny(needs_guess)) {
+        if (any_lane(needs_guess)) {
             float guessed_nearest2;
             float guessed2 = guess_radius2(settings, query, guessed_nearest2);
             guess2 = needs_guess ? guessed2 : guess2;

@@ -42,11 +42,12 @@ float guess_radius2(GatherSettings gather, uint query, out float nearest2) {
 #else
 // Walks down to a near leaf.
 float guess_radius2(GatherSettings gather, uint query, out float nearest2) {
-    Bounds own = bound_mine();
+    Query own = get_query();
     uint node = 1u;
     float bound = 0.0;
     for (uint level = 0u; level < gather.leaf_level; ++level) {
-        float left = bound_measure(own, 2u * node), right = bound_measure(own, 2u * node + 1u);
+        float left = bound_measure(own, load_node(2u * node));
+        float right = bound_measure(own, load_node(2u * node + 1u));
         node = 2u * node + uint(right < left);
         bound = min(left, right);
     }

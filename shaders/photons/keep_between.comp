@@ -16,15 +16,15 @@ void main() {
         below += uint(is_low);
         within += uint(!is_low && is_less(key, hi));
     }
-    below = subgroupAdd(below);
+    below = sum_lanes(below);
     uint kept = 0u;
-    uint of_all = subgroupAdd(within);
+    uint of_all = sum_lanes(within);
     if (LANE == 0u) {
         atomicAdd(brackets[part.node].below, below);
         kept = atomicAdd(brackets[part.node].kept, of_all); // in any order: the key of a rank is one
     }
-    uint to = find_first_position(build.photon_count, part.node, build.level) + subgroupBroadcastFirst(kept) +
-              subgroupExclusiveAdd(within);
+    uint to = find_first_position(build.photon_count, part.node, build.level) + broadcast(kept, 0u) +
+              sum_before(within);
     for (uint i = part.first + LANE; i < part.end; i += WIDTH) {
         Key key = read_source(i, axis);
         bool is_within = !is_less(key, lo) && is_less(key, hi);

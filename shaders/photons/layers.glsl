@@ -30,8 +30,8 @@ Layer load_layer(uint position) {
 
 Layer share_layer(Layer mine, uint lane) {
     Layer layer = mine; // what pads the last row is never read
-    layer.row[0].x = subgroupBroadcast(mine.row[0].x, lane);
-#define SHARE_AXIS(a) layer.row[a / 4][a % 4] = subgroupBroadcast(mine.row[a / 4][a % 4], lane);
+    layer.row[0].x = broadcast(mine.row[0].x, lane);
+#define SHARE_AXIS(a) layer.row[a / 4][a % 4] = broadcast(mine.row[a / 4][a % 4], lane);
     EACH_PARAMETER(SHARE_AXIS)
     return layer;
 }
@@ -59,25 +59,34 @@ float measure_parameters(Layer a, Layer b) {
     return sum;
 }
 
-// Squared distance in parameter space from a box of queries to a node's photons, a little less for rounding; INFINITY
-// where none has one of the layer numbers lo … hi.
-float measure_row_gap(Layer lo, Layer hi, uint node) {
-    float sum = 0.0;
-    bool apart = false;
-#ifdef PERIODIC_PARAMETERS
-#define WRAP_GAP(r) { vec4 before = max(max(lo.row[r] - most + row_period[r], least - hi.row[r] - row_period[r]), vec4(0.0)); \
-        vec4 after = max(max(lo.row[r] - most - row_period[r], least - hi.row[r] + row_period[r]), vec4(0.0)); \
-        gap = max(min(gap, min(before, after)) - row_period[r] * ROW_WRAP_ROUNDING, vec4(0.0)); }
-#else
-#define WRAP_GAP(r)
+// The least and the greatest of a node's rows.
+void load_layer_box(uint node, out Layer least, out Layer most) {
+#define LOAD_BOX(r) least.row[r] = tree_ranges_at(2u * ROW_COUNT * node + uint(r)); \
+    most.row[r] = tree_ranges_at(2u * ROW_COUNT * node + ROW_COUNT + uint(r));
+    EACH_ROW(LOAD_BOX)
+}
+
+// Squared distance in parameter space to the photons of a box, a little less for rounding; INFINITY where none has the
+// layer number.
+float measure_row_gap(Layer from, Layer least, Layer most) {
+    float number = get_number(from);
+    bool apart = number > most.row[0].x || number < least.row[0].x;
+#ifdef IN_PARAMETER_SPACE
+    apart = number == NO_LAYER ? most.row[0].x <= 0.0 : apart;
 #endif
-#define ADD_GAP(r) { vec4 least = tree_ranges_at(2u * ROW_COUNT * node + uint(r)); \
-        vec4 most = tree_ranges_at(2u * ROW_COUNT * node + ROW_COUNT + uint(r)); \
-        vec4 gap = max(max(lo.row[r] - most, least - hi.row[r]), vec4(0.0)); \
-        if (r == 0) { apart = gap.x > 0.0; gap.x = 0.0; } \
-        WRAP_GAP(r) \
-        sum += dot(gap, gap); }
-    EACH_ROW(ADD_GAP)
+    float sum = 0.0;
+#ifdef PERIODIC_PARAMETERS
+#define WRAP_GAP(a) { float p = row_period[a / 4][a % 4]; \
+        float before = max(max(q - hi + p, lo - q - p), 0.0), after = max(max(q - hi - p, lo - q + p), 0.0); \
+        gap = max(min(gap, min(before, after)) - p * ROW_WRAP_ROUNDING, 0.0); }
+#else
+#define WRAP_GAP(a)
+#endif
+#define ADD_GAP(a) { float q = from.row[a / 4][a % 4], lo = least.row[a / 4][a % 4], hi = most.row[a / 4][a % 4]; \
+        float gap = max(max(q - hi, lo - q), 0.0); \
+        WRAP_GAP(a) \
+        sum += gap * gap; }
+    EACH_PARAMETER(ADD_GAP)
     return apart ? INFINITY : sum * ROW_ROUNDING;
 }
 
@@ -101,14 +110,12 @@ bool is_between(Layer layer, Layer lo, Layer hi) {
     return inside;
 }
 
-// Whether a node may hold such a row.
-bool may_be_between(Layer lo, Layer hi, uint node) {
+// Whether a box may hold such a row.
+bool may_be_between(Layer lo, Layer hi, Layer least, Layer most) {
     bool reached = true;
-#define TEST_NODE(r) { vec4 least = tree_ranges_at(2u * ROW_COUNT * node + uint(r)); \
-        vec4 most = tree_ranges_at(2u * ROW_COUNT * node + ROW_COUNT + uint(r)); \
-        bvec4 above = greaterThanEqual(most, lo.row[r]), below = lessThanEqual(least, hi.row[r]); \
+#define TEST_ROW(r) { bvec4 above = greaterThanEqual(most.row[r], lo.row[r]), below = lessThanEqual(least.row[r], hi.row[r]); \
         bvec4 goes_over = greaterThan(lo.row[r], hi.row[r]); \
         reached = reached && all(bvec4(uvec4(above) & uvec4(below) | uvec4(goes_over) & (uvec4(above) | uvec4(below)))); }
-    EACH_ROW(TEST_NODE)
+    EACH_ROW(TEST_ROW)
     return reached;
 }

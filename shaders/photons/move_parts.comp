@@ -11,7 +11,7 @@ void main() {
     uint begin = find_first_position(build.photon_count, part.node, build.level);
     uint lefts = 0u;
     for (uint i = part.node * build.parts + LANE; i < gl_WorkGroupID.x; i += WIDTH) lefts += left_counts[i];
-    lefts = subgroupAdd(lefts);
+    lefts = sum_lanes(lefts);
     uint left = begin + lefts;
     uint right = find_split(part.node) + (part.first - begin) - lefts;
     Halves halves = start_halves();

@@ -25,9 +25,9 @@ void main() {
         tree_positions[i] = vec4(p, uintBitsToFloat(i));
     }
     widen_box(0u, lo, hi);
-    least = subgroupMin(least);
-    greatest = subgroupMin(greatest);
-    if (subgroupElect()) {
+    least = find_least(least);
+    greatest = find_least(greatest);
+    if (gl_SubgroupInvocationID == 0u) {
         atomicMin(emitters[0], least);
         atomicMin(emitters[1], greatest);
     }

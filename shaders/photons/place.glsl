@@ -39,20 +39,6 @@ float square_length(Place d) {
     return squared;
 }
 
-Place find_least(Place p, bool counts) {
-    p = counts ? p : Place(INFINITY);
-#define LEAST(a) p.a = subgroupMin(p.a);
-    EACH_AXIS(LEAST)
-    return p;
-}
-
-Place find_most(Place p, bool counts) {
-    p = counts ? p : Place(-INFINITY);
-#define MOST(a) p.a = subgroupMax(p.a);
-    EACH_AXIS(MOST)
-    return p;
-}
-
 void set_period(vec4 space_period) {
 #ifdef PERIODIC
     period = take_place(space_period);
@@ -62,17 +48,17 @@ void set_period(vec4 space_period) {
 }
 
 Place share_place(Place p, uint lane) {
-#define SHARE(a) p.a = subgroupBroadcast(p.a, lane);
+#define SHARE(a) p.a = broadcast(p.a, lane);
     EACH_AXIS(SHARE)
     return p;
 }
 
-// Squared distance between two boxes.
-float measure_box_gap(Place lo, Place hi, Place other_lo, Place other_hi) {
-    Place gap = max(max(lo - other_hi, other_lo - hi), Place(0.0));
+// Squared distance from a place to a box.
+float measure_box_gap(Place from, Place lo, Place hi) {
+    Place gap = max(max(from - hi, lo - from), Place(0.0));
 #ifdef PERIODIC
-    Place before = max(max(lo - other_hi + period, other_lo - hi - period), Place(0.0));
-    Place after = max(max(lo - other_hi - period, other_lo - hi + period), Place(0.0));
+    Place before = max(max(from - hi + period, lo - from - period), Place(0.0));
+    Place after = max(max(from - hi - period, lo - from + period), Place(0.0));
     // Wrapping an offset rounds otherwise than wrapping a gap.
     gap = max(min(gap, min(before, after)) - period * WRAP_ROUNDING, Place(0.0));
 #endif

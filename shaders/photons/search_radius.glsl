@@ -92,7 +92,7 @@ void count_pass(bool searching, uint wanted, uint photon_count, uint leaf_level)
                        floatBitsToUint(max(hi, 0.0)) > floatBitsToUint(max(my_search.below, 0.0)) + 1u;
     uint crowd = seeks_coincident ? wanted - 1u : (may_give_up ? CROWD_FACTOR * wanted + CROWD_BASE : 0xffffffffu);
     is_cut_short = false;
-    set_batch(searching, hi);
+    lane_reach = searching ? hi : -1.0;
     start_walk(leaf_level);
     bool goes_on = true;
     while (goes_on) {
@@ -106,11 +106,11 @@ void count_pass(bool searching, uint wanted, uint photon_count, uint leaf_level)
             ++turns;
             is_crowded = accepts && my_search.hi_count > crowd;
             goes_on = !is_walk_over() && has_turns_left();
-        } while (goes_on && !subgroupAny(is_crowded));
+        } while (goes_on && !any_lane(is_crowded));
         is_cut_short = is_cut_short || (is_crowded && goes_on);
         accepts = accepts && !is_crowded;
-        set_batch(accepts, hi);
-        goes_on = goes_on && subgroupAny(accepts);
+        lane_reach = accepts ? hi : -1.0;
+        goes_on = goes_on && any_lane(accepts);
     }
     my_search.lo = lo;
     my_search.hi = hi;
@@ -317,8 +317,8 @@ void find_radius(bool has_query, GatherSettings gather, float guess2, float near
     bool is_short = false;
     uint pass = 0u; // of this lane
     bool goes_on = has_turns_left();
-    while (subgroupAny(my_search.searching && pass < LARGEST_PASS_COUNT) && goes_on) {
-        bool takes_part = choose_part(my_search.searching && pass < LARGEST_PASS_COUNT, my_search.hi);
+    while (any_lane(my_search.searching && pass < LARGEST_PASS_COUNT) && goes_on) {
+        bool takes_part = my_search.searching && pass < LARGEST_PASS_COUNT;
         count_pass(takes_part, wanted, gather.photon_count, gather.leaf_level);
         goes_on = has_turns_left();
         if (takes_part && goes_on) judge_pass(rank, is_short, pass, limit);

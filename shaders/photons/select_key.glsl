@@ -38,7 +38,7 @@ void rank_held() {
     for (uint i = 0u; i < HELD; ++i) ranks[i] = 0u;
     for (uint lane = 0u; lane < WIDTH; ++lane)
         for (uint i = 0u; i < HELD; ++i) {
-            Key other = Key(subgroupBroadcast(held[i].value, lane), subgroupBroadcast(held[i].place, lane));
+            Key other = Key(broadcast(held[i].value, lane), broadcast(held[i].place, lane));
             for (uint j = 0u; j < HELD; ++j) ranks[j] += uint(is_less(other, held[j]));
         }
 }
@@ -51,8 +51,8 @@ Key find_held(uint rank) {
             found = held[i];
             is_mine = true;
         }
-    uint lane = subgroupBallotFindLSB(subgroupBallot(is_mine));
-    return Key(subgroupBroadcast(found.value, lane), subgroupBroadcast(found.place, lane));
+    uint lane = find_first_lane(find_lanes(is_mine));
+    return Key(broadcast(found.value, lane), broadcast(found.place, lane));
 }
 
 // Items first … end - 1, along an axis, whose places are from place_first up to place_end; the key of `rank` is sought.
@@ -133,7 +133,7 @@ void count_below_pivots(Search search, Range range) {
         int key = project(read_item(item, search.axis), range.lo.value);
         for (uint i = 0u; i < PIVOTS; ++i) counts[i] += uint(key < pivots[i]);
     }
-    for (uint i = 0u; i < PIVOTS; ++i) counts[i] = subgroupAdd(counts[i]);
+    for (uint i = 0u; i < PIVOTS; ++i) counts[i] = sum_lanes(counts[i]);
 }
 
 void narrow_range(uint rank, inout Range range) {
@@ -160,7 +160,7 @@ bool hold_range(Search search, Range range) {
             if (is_within && n == i) held[i] = key;
         n += uint(is_within);
     }
-    return !subgroupAny(n > HELD);
+    return !any_lane(n > HELD);
 }
 
 // The key sought; GREATEST if it takes more than that many passes over the items.
@@ -197,10 +197,10 @@ void move_photons(uint first, uint end, uint axis, Key pivot, inout uint left, i
         vec4 photon = source_at(place);
         bool is_below = is_less(Key(find_key(photon, axis), int(place)), pivot);
         bool is_valid = i + LANE < end;
-        uvec4 ballot = subgroupBallot(is_valid && is_below);
-        uint lefts = subgroupBallotExclusiveBitCount(ballot);
+        uvec2 ballot = find_lanes(is_valid && is_below);
+        uint lefts = count_before(ballot);
         if (is_valid) target[is_below ? left + lefts : right + LANE - lefts] = photon;
-        lefts = subgroupBallotBitCount(ballot);
+        lefts = count_lanes(ballot);
         left += lefts;
         right += min(WIDTH, end - i) - lefts;
         widen(halves.left_lo, halves.left_hi, photon.xyz, is_below); // the last photon may come again
@@ -208,8 +208,8 @@ void move_photons(uint first, uint end, uint axis, Key pivot, inout uint left, i
     }
 }
 
-vec3 join_least(vec3 v) { return vec3(subgroupMin(v.x), subgroupMin(v.y), subgroupMin(v.z)); }
-vec3 join_greatest(vec3 v) { return vec3(subgroupMax(v.x), subgroupMax(v.y), subgroupMax(v.z)); }
+vec3 join_least(vec3 v) { return vec3(find_least(v.x), find_least(v.y), find_least(v.z)); }
+vec3 join_greatest(vec3 v) { return vec3(find_most(v.x), find_most(v.y), find_most(v.z)); }
 
 Halves join_halves(Halves halves) {
     return Halves(join_least(halves.left_lo), join_greatest(halves.left_hi), join_least(halves.right_lo),

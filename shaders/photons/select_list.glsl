@@ -18,12 +18,12 @@ bool is_before(uvec3 a, uvec3 b) {
 void distribute(uvec3 entry, bool valid, uvec3 pivot, bool inclusive, inout uint left, inout uint right) {
     bool below = valid && (is_before(entry, pivot) || (inclusive && entry == pivot));
     bool above = valid && !below;
-    uvec4 below_ballot = subgroupBallot(below);
-    uvec4 above_ballot = subgroupBallot(above);
-    uint above_count = subgroupBallotBitCount(above_ballot);
-    if (below) list[left + subgroupBallotExclusiveBitCount(below_ballot)] = entry;
-    if (above) list[right - above_count + subgroupBallotExclusiveBitCount(above_ballot)] = entry;
-    left += subgroupBallotBitCount(below_ballot);
+    uvec2 below_ballot = find_lanes(below);
+    uvec2 above_ballot = find_lanes(above);
+    uint above_count = count_lanes(above_ballot);
+    if (below) list[left + count_before(below_ballot)] = entry;
+    if (above) list[right - above_count + count_before(above_ballot)] = entry;
+    left += count_lanes(below_ballot);
     right -= above_count;
 }
 
@@ -57,7 +57,7 @@ uint split_range(uint first, uint end, uvec3 pivot, bool inclusive) {
 }
 
 uvec3 share_entry(uvec3 mine, uint lane) {
-    return uvec3(subgroupBroadcast(mine.x, lane), subgroupBroadcast(mine.y, lane), subgroupBroadcast(mine.z, lane));
+    return uvec3(broadcast(mine.x, lane), broadcast(mine.y, lane), broadcast(mine.z, lane));
 }
 
 uvec3 choose_pivot(uint first, uint end, uint split) {
@@ -67,7 +67,7 @@ uvec3 choose_pivot(uint first, uint end, uint split) {
     for (uint other = 0u; other < WIDTH; ++other) rank += uint(is_before(share_entry(sampled, other), sampled));
     float wanted = float(split - first) / float(n) * float(WIDTH);
     float miss = abs(float(rank) + 0.5 - wanted);
-    uint winner = subgroupBallotFindLSB(subgroupBallot(miss == subgroupMin(miss)));
+    uint winner = find_first_lane(find_lanes(miss == find_least(miss)));
     return share_entry(sampled, winner);
 }
 
@@ -77,9 +77,9 @@ uvec3 find_last(uint count) {
     turns += count / WIDTH + 1u;
     for (uint i = LANE; i < count; i += WIDTH) last = is_before(last, list[i]) ? list[i] : last;
     uvec3 largest;
-    largest.x = subgroupMax(last.x);
-    largest.y = subgroupMax(last.x == largest.x ? last.y : 0u);
-    largest.z = subgroupMax(last.x == largest.x && last.y == largest.y ? last.z : 0u);
+    largest.x = find_most(last.x);
+    largest.y = find_most(last.x == largest.x ? last.y : 0u);
+    largest.z = find_most(last.x == largest.x && last.y == largest.y ? last.z : 0u);
     return largest;
 }
 

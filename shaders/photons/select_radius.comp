@@ -42,19 +42,19 @@ struct Selection {
 Selection selection;
 
 // Pushes those of the node's descendants, up to three levels down, that may hold something, farthest first.
-void push_descendants(Bounds own, uint node) {
+void push_descendants(Query own, uint node) {
     uint level = find_level(node);
     uint step = min(TREE_STEP_LEVELS, settings.leaf_level - level);
     uint child = (node << step) + min(LANE, (1u << step) - 1u);
-    float bound = bound_measure(own, child);
+    float bound = bound_measure(own, load_node(child));
     bool reached = LANE < (1u << step) && floatBitsToUint(bound) <= selection.last.x && bound < INFINITY;
     bound = reached ? bound : INFINITY;
     uint nearer = 0u; // survivors in front of this one
     for (uint other = 0u; other < TREE_FANOUT; ++other) {
-        float theirs = subgroupBroadcast(bound, other);
+        float theirs = broadcast(bound, other);
         nearer += uint(theirs < bound || (theirs == bound && other < LANE));
     }
-    uint count = subgroupBallotBitCount(subgroupBallot(reached));
+    uint count = count_lanes(find_lanes(reached));
     if (reached) {
         stack_node[selection.depth + count - 1u - nearer] = child;
         stack_bound[selection.depth + count - 1u - nearer] = bound;
@@ -72,9 +72,9 @@ void list_leaf(uint leaf) {
         Candidate other = load_candidate(min(base + LANE, end - 1u), base + LANE < end);
         uvec3 entry = uvec3(floatBitsToUint(measure_candidate(other)), break_tie(other), other.id);
         bool found = base + LANE < end && entry.x < NO_BOUND && (selection.last.x == NO_BOUND || is_before(entry, selection.last));
-        uvec4 ballot = subgroupBallot(found);
-        if (found) list[selection.count + subgroupBallotExclusiveBitCount(ballot)] = entry;
-        selection.count += subgroupBallotBitCount(ballot);
+        uvec2 ballot = find_lanes(found);
+        if (found) list[selection.count + count_before(ballot)] = entry;
+        selection.count += count_lanes(ballot);
     }
     synchronize();
 }
@@ -88,7 +88,7 @@ void cut_selection() {
 }
 
 void search_tree() {
-    Bounds own = bound_mine();
+    Query own = get_query();
     while (selection.depth > 0u && has_turns_left()) {
         --selection.depth;
         turns += TREE_FANOUT + 3u;
@@ -169,7 +169,7 @@ void write_radius(uint query) {
 #else
     uint equal = 0u;
     for (uint i = LANE; i < found; i += WIDTH) equal += uint(list[i].x == last.x);
-    equal = subgroupAdd(equal);
+    equal = sum_lanes(equal);
     vec4 radius = found > 0u ? share_ties(uintBitsToFloat(last.x), found, found - equal, equal) : vec4(0.0);
     bool ties_on = has_next && list[settings.rank].x == last.x && last.x != 0u;
 #endif

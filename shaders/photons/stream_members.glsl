@@ -80,6 +80,9 @@ void save_walk() {
 #define SAVE(sum) saved_walks[at++] = floatBitsToUint(sum);
     EACH_SUM(SAVE)
 }
+#else
+bool resume_walk() { return false; }
+void save_walk() {}
 #endif
 
 // Walks on until all is met or the turns are spent.
@@ -95,29 +98,9 @@ void meet_leaves(uint photon_count, uint leaf_level) {
 bool stream_members(GatherSettings gather, bool has_query, vec4 radius) {
     member_map_size = gather.photon_count;
     member_radius = radius;
-    bool is_left = has_query;
-    bool is_met = true;
-#ifdef SINGLY
-    set_batch(has_query, radius.x);
-    member_r2 = has_query ? radius.x : -1.0;
+    lane_reach = member_r2 = has_query ? radius.x : -1.0;
     if (!resume_walk()) start_walk(gather.leaf_level);
     meet_leaves(gather.photon_count, gather.leaf_level);
-    if (!is_walk_over()) {
-        save_walk();
-        is_met = false;
-    }
-#else
-    do {
-        bool takes_part = choose_part(is_left, radius.x);
-        set_batch(takes_part, radius.x);
-        member_r2 = takes_part ? radius.x : -1.0;
-        start_walk(gather.leaf_level);
-        meet_leaves(gather.photon_count, gather.leaf_level);
-        bool is_over = is_walk_over();
-        is_met = is_met && (is_over || !takes_part);
-        is_left = is_left && !takes_part;
-    } while (subgroupAny(is_left) && has_turns_left());
-    is_met = is_met && !is_left;
-#endif
-    return is_met;
+    if (!is_walk_over()) save_walk();
+    return is_walk_over() || !has_query;
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Brings a subgroup of queries, a batch, to all that any of them reaches: walks the tree with the bounds of the batch
-// and visits the photons of every leaf that one of its queries reaches, a subgroup's width (a tile) at a time.
+// Brings a subgroup of queries, a batch, to all that any of them reaches: walks the tree to every leaf that one of its
+// queries reaches and visits the photons there, a subgroup's width (a tile) at a time.
 // Eight descendants are tested at once, one a lane; which of them remain to be entered is a byte for each step down,
 // kept in registers: on processors without branches shared memory would cost more than all the rest.
+// Define ONE_QUERY where all lanes have the same query.
 #include "photons/tree_texels.glsl"
 #include "photons/candidates.glsl"
 #include "shared/turns.glsl"
@@ -10,12 +11,7 @@
 #define WIDTH gl_WorkGroupSize.x
 #define LANE gl_LocalInvocationID.x
 
-// A box wider than so many reaches is no good bound.
-const float SCATTERED_REACHES = 10.0;
-
-Bounds batch;
-float batch_reach; // squared, the farthest of all lanes
-float lane_reach;  // squared, this lane's; negative: it takes no part
+float lane_reach; // squared, this lane's; negative: it takes no part
 
 // Where a walk stands. Steps down take three levels each, but for the first, which takes what is left.
 struct Walk {
@@ -29,21 +25,6 @@ struct Walk {
 
 Walk walk;
 
-void set_batch(bool takes_part, float reach2) {
-    batch = join_bounds(bound_mine(), takes_part);
-    lane_reach = takes_part ? reach2 : -1.0;
-    batch_reach = subgroupMax(lane_reach);
-}
-
-// Which of the lanes that search take part in the next walk: all, or, where they lie so scattered that the box about
-// them says nothing, the first of them alone.
-bool choose_part(bool searching, float reach2) {
-    set_batch(searching, reach2);
-    float widest = SCATTERED_REACHES * SCATTERED_REACHES * max(batch_reach, 0.0);
-    if (measure_extent(batch) <= widest) return searching;
-    return searching && LANE == subgroupBallotFindLSB(subgroupBallot(searching));
-}
-
 uint get_waiting(uint step) { return (walk.waiting[step >> 2u] >> (8u * (step & 3u))) & 0xffu; }
 
 void set_waiting(uint step, uint flags) {
@@ -54,26 +35,22 @@ void set_waiting(uint step, uint flags) {
 
 uint get_levels() { return walk.step == 0u ? walk.first_levels : TREE_STEP_LEVELS; }
 
-// The descendants of the present node that the batch reaches.
+// The descendants of the present node that some query reaches: a lane tests one of them, against one query after the
+// other. Bounds about all queries together would let in far more.
 uint test_descendants() {
     uint levels = get_levels();
-    uint child = (walk.node << levels) + min(LANE, (1u << levels) - 1u);
-    bool reached = bound_measure(batch, child) <= batch_reach && LANE < (1u << levels);
-    return subgroupBallot(reached).x;
-}
-
-// Of those, leaves that no query reaches by itself are left out: a batch's bounds are wider than all of them.
-uint choose_leaves(uint flags) {
-    uint first = walk.node << get_levels();
-    Bounds own = bound_mine();
-    uint kept = 0u, left = flags;
-    while (left != 0u) {
-        ++turns;
-        uint bit = uint(findLSB(left));
-        left &= left - 1u;
-        kept |= subgroupAny(bound_measure(own, first + bit) <= lane_reach) ? 1u << bit : 0u;
+    Node node = load_node((walk.node << levels) + min(LANE, (1u << levels) - 1u));
+    Query own = get_query();
+    bool reached = false;
+#if defined(SINGLY) || defined(ONE_QUERY)
+    reached = bound_measure(own, node) <= broadcast(lane_reach, 0u);
+#else
+    for (uint base = 0u; base < WIDTH; base += 8u) {
+#define TEST(q) reached = reached || bound_measure(share_query(own, base + q), node) <= broadcast(lane_reach, base + q);
+        TEST(0u) TEST(1u) TEST(2u) TEST(3u) TEST(4u) TEST(5u) TEST(6u) TEST(7u)
     }
-    return kept;
+#endif
+    return find_lanes(reached && LANE < (1u << levels)).x;
 }
 
 void enter_node(uint step, uint node) {
@@ -81,7 +58,7 @@ void enter_node(uint step, uint node) {
     walk.node = node;
     uint flags = test_descendants();
     bool has_leaves = step == walk.last_step;
-    walk.leaves = choose_leaves(has_leaves ? flags : 0u);
+    walk.leaves = has_leaves ? flags : 0u;
     set_waiting(step, has_leaves ? 0u : flags);
 }
 
@@ -113,22 +90,22 @@ void walk_on() {
 bool is_walk_over() { return walk.leaves == 0u && !is_waiting(); }
 
 // Defines void NAME(uint photon_count, uint leaf_level), which visits the leaves of the present node: VISIT(next, end)
-// gets the tree positions of a tile, the last of its leaf cut off.
+// gets the tree positions of a tile, the last of its leaf cut off. Each lane knows where one leaf begins and ends.
 #define DEFINE_VISIT(NAME, VISIT) \
 void NAME(uint photon_count, uint leaf_level) { \
-    uint base = (walk.node << get_levels()) - (1u << leaf_level); \
-    uint j = base + uint(findLSB(walk.leaves)); \
-    uint next = find_first_position(photon_count, j, leaf_level); \
+    uint leaf = (walk.node << get_levels()) - (1u << leaf_level) + min(LANE, TREE_FANOUT - 1u); \
+    uint first = find_first_position(photon_count, leaf, leaf_level); \
+    uint last = find_first_position(photon_count, leaf + 1u, leaf_level); \
+    uint next = broadcast(first, uint(findLSB(walk.leaves)) % TREE_FANOUT); \
     bool goes_on = walk.leaves != 0u; \
     while (goes_on) { \
         turns += 1u + WIDTH / 8u; \
-        uint end = find_first_position(photon_count, j + 1u, leaf_level); \
+        uint end = broadcast(last, uint(findLSB(walk.leaves))); \
         VISIT(next, end); \
         next += WIDTH; \
         bool is_through = next >= end; \
         walk.leaves = is_through ? walk.leaves & (walk.leaves - 1u) : walk.leaves; \
-        j = base + uint(findLSB(walk.leaves)); \
-        next = is_through ? find_first_position(photon_count, j, leaf_level) : next; \
+        next = is_through ? broadcast(first, uint(findLSB(walk.leaves)) % TREE_FANOUT) : next; \
         goes_on = walk.leaves != 0u; \
     } \
 }

@@ -7,6 +7,7 @@
 #include "shared/prelude.glsl"
 #include "shared/relax.h"
 #include "relax/tangent_plane.glsl"
+#define ONE_QUERY
 #include "photons/visit_tiles.glsl"
 #include "relax/write_constraint.glsl"
 #pragma binding readonly vec4 offsets
@@ -41,10 +42,10 @@ void list_tile(uint next, uint end) {
     Place d = find_offset(other);
     bool is_self = position == my_position;
     bool is_member = measure_candidate(other) < my_r2 && !is_self;
-    uvec4 ballot = subgroupBallot(is_member);
-    uint at = min(listed + subgroupBallotExclusiveBitCount(ballot), LIST_SIZE - 1u);
+    uvec2 ballot = find_lanes(is_member);
+    uint at = min(listed + count_before(ballot), LIST_SIZE - 1u);
     if (is_member) signed_distances[at] = dot(my_direction, project_offset(d));
-    listed += subgroupBallotBitCount(ballot);
+    listed += count_lanes(ballot);
 }
 
 DEFINE_VISIT(list_leaves, list_tile)
@@ -86,11 +87,6 @@ vec2 find_evenness(vec3 sums) {
     return vec2(mean, mean > 0.0 ? sqrt(variance) / mean : 0.0);
 }
 
-vec3 scan_sums(vec3 own, out vec3 total) {
-    total = vec3(subgroupAdd(own.x), subgroupAdd(own.y), subgroupAdd(own.z));
-    return vec3(subgroupExclusiveAdd(own.x), subgroupExclusiveAdd(own.y), subgroupExclusiveAdd(own.z));
-}
-
 // Weight of the constraint from the best split; every lane takes a run of gaps.
 float weigh_split(uint gap_count, float r) {
     uint run = (gap_count + WIDTH - 1u) / WIDTH;
@@ -98,8 +94,8 @@ float weigh_split(uint gap_count, float r) {
     turns += 2u * run + 4u;
     vec3 own = vec3(0.0);
     for (uint gap = first; gap < end; ++gap) own += weigh_gap(gap, r);
-    vec3 total;
-    vec3 left = scan_sums(own, total);
+    vec3 total = sum_lanes(own);
+    vec3 left = sum_before(own);
     float best = INFINITY;
     uint best_gap = 0u;
     vec2 best_means = vec2(0.0);
@@ -115,12 +111,12 @@ float weigh_split(uint gap_count, float r) {
         best_means = better ? vec2(before.x, after.x) : best_means;
         left += here;
     }
-    bool is_best = best < INFINITY && best == subgroupMin(best);
-    uvec4 ballot = subgroupBallot(is_best);
-    if (subgroupBallotBitCount(ballot) == 0u) return 0.0;
-    uint winner = subgroupBallotFindLSB(ballot); // runs ascend with the lanes: the first split of those that tie
-    uint gap = subgroupBroadcast(best_gap, winner);
-    vec2 means = vec2(subgroupBroadcast(best_means.x, winner), subgroupBroadcast(best_means.y, winner));
+    bool is_best = best < INFINITY && best == find_least(best);
+    uvec2 ballot = find_lanes(is_best);
+    if (count_lanes(ballot) == 0u) return 0.0;
+    uint winner = find_first_lane(ballot); // runs ascend with the lanes: the first split of those that tie
+    uint gap = broadcast(best_gap, winner);
+    vec2 means = vec2(broadcast(best_means.x, winner), broadcast(best_means.y, winner));
     float middle = 0.5 * (signed_distances[gap] + signed_distances[gap + 1u]) / r;
     float larger = max(means.x, means.y);
     float homogeneity = larger > 0.0 ? min(means.x, means.y) / larger : 1.0;
@@ -160,7 +156,7 @@ void save_list() {}
 // False where the turns did not suffice.
 bool list_neighbors(uint photon_count, uint leaf_level) {
     listed = 0u;
-    set_batch(true, my_r2);
+    lane_reach = my_r2;
     if (!resume_list()) start_walk(leaf_level);
     do {
         list_leaves(photon_count, leaf_level);

@@ -4,7 +4,7 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_vote : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
-#extension GL_KHR_shader_subgroup_ballot : require
+#extension GL_KHR_shader_subgroup_shuffle : require
 
 // SignedZeroInfNanPreserve: without it x - x folds to 0 and compensated sums vanish.
 spirv_execution_mode(extensions = ["SPV_KHR_float_controls"], capabilities = [4466], 4461, 32);
@@ -13,3 +13,4 @@ layout(local_size_x_id = 0) in;
 
 const float PI = 3.14159265358979323846;
 #define INFINITY uintBitsToFloat(0x7f800000u)
+#include "shared/subgroup.glsl"

@@ -14,9 +14,9 @@ void main() {
     for (uint first = 0u; first < block_count; first += gl_WorkGroupSize.x) {
         uint block = first + gl_LocalInvocationID.x;
         uvec2 sum = block < block_count ? block_sums[block] : uvec2(0u);
-        uvec2 before = subgroupExclusiveAdd(sum);
+        uvec2 before = sum_before(sum);
         if (block < block_count) block_offsets[block] = carried + before;
-        carried += subgroupAdd(sum);
+        carried += sum_lanes(sum);
     }
     if (gl_LocalInvocationID.x == 0u) block_offsets[block_count] = carried;
 }

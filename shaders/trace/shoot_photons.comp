@@ -110,16 +110,16 @@ void main() {
     path.alive = false;
     bool busy = true;
     while (busy) {
-        uvec4 idle = subgroupBallot(!path.alive);
-        uint turn = next + subgroupBallotExclusiveBitCount(idle);
-        next += subgroupBallotBitCount(idle);
+        uvec2 idle = find_lanes(!path.alive);
+        uint turn = next + count_before(idle);
+        next += count_lanes(idle);
         if (!path.alive && turn < end) {
             uint slot = lane_order[turn];
             if (slot < settings.count) path = start_path(settings.first + slot, slot); // a last chunk may be shorter
         }
         if (path.alive) follow_segment(path);
         ++turns;
-        busy = (subgroupAny(path.alive) || next < end) && subgroupAll(has_turns_left());
+        busy = (any_lane(path.alive) || next < end) && all_lanes(has_turns_left());
     }
     give_up(path, next, end);
 }
