@@ -9,17 +9,56 @@ namespace {
 
 constexpr const char* STAGE = "find neighbors";
 constexpr std::uint32_t SORT_GROUP = 64;
-constexpr std::uint32_t SORT_RUN = 32;            // sorted at once in registers
-constexpr std::uint32_t LARGEST_WAYS = 8;         // runs merged at a time
+// Sorted at once in registers. The kernel is the same for every k: somebody who tries one does not wait for a compiler.
+constexpr std::uint32_t RUN = 64;
 constexpr std::uint64_t LIST_BYTES = 64ull << 20;   // of the lists under way together
 constexpr std::uint64_t PAIR_BYTES = sizeof(glm::uvec2);
 
-std::vector<std::string> list_sort_defines(std::uint32_t k) {
-    const std::uint32_t ways = std::clamp((k + SORT_RUN - 1) / SORT_RUN, 2u, LARGEST_WAYS);
-    return {"RUN " + std::to_string(SORT_RUN) + "u", write_sort_network(SORT_RUN),
-            write_each("EACH_OF_RUN", 0, SORT_RUN, "u"), "WAYS " + std::to_string(ways) + "u",
-            write_each("EACH_WAY", 0, ways)};
-}
+// Lists of members, a part of the queries at a time, and where their answers go.
+struct Lists {
+    gpu::Device& device;
+    std::uint32_t k;
+    const gpu::Buffer& found;
+    const gpu::Buffer& found_counts;
+    const gpu::Buffer& result_rows;
+    const Neighbors& neighbors;
+
+    // Runs `kernel` over the lists of queries first … first + rows - 1.
+    void run(const gpu::KernelSource& kernel, std::uint64_t first, std::uint64_t rows, std::uint32_t lanes_each,
+             const Progress& progress) const {
+        gpu::run_in_chunks(device, STAGE, rows, SORT_GROUP * 16, progress,
+                           [&](gpu::Commands& commands, std::uint64_t begin, std::uint64_t size) {
+                               const shared::SortSettings push{static_cast<std::uint32_t>(first + begin),
+                                                               static_cast<std::uint32_t>(size),
+                                                               static_cast<std::uint32_t>(first), k};
+                               commands.dispatch(kernel,
+                                                 {{"found_lists", found},
+                                                  {"found_neighbors", found},
+                                                  {"found_counts", found_counts},
+                                                  {"result_rows", result_rows},
+                                                  {"neighbor_ids", neighbors.ids},
+                                                  {"neighbor_distances", neighbors.distances}},
+                                                 push, size * lanes_each);
+                           });
+    }
+
+    // Puts them in order.
+    void sort(std::uint64_t first, std::uint64_t rows, const Progress& progress) const {
+        const std::uint32_t runs = (k + RUN - 1) / RUN;
+        const std::string size = "RUN " + std::to_string(RUN) + "u";
+        gpu::KernelSource sort{"photons/sort_neighbors.comp",
+                               SORT_GROUP,
+                               {size, write_sort_network(RUN), write_each("EACH_OF_RUN", 0, RUN, "u"),
+                                write_each("EACH_PAIR_OF_RUN", 0, RUN / 2, "u")},
+                               {}};
+        if (runs == 1)
+            sort.defines.emplace_back("IS_WHOLE");
+        run(sort, first, rows, runs, progress);
+        if (runs > 1)
+            run({"photons/merge_neighbors.comp", SORT_GROUP, {size, "RUNS " + std::to_string(runs), write_each("EACH_RUN", 0, runs)}, {}}, first, rows,
+                1, progress);
+    }
+};
 
 } // namespace
 
@@ -44,31 +83,20 @@ Neighbors find_neighbors(gpu::Device& device, Neighborhood neighborhood, const N
 
     Neighbors neighbors{gpu::Buffer(device, count * k * sizeof(float), "neighbor ids"),
                         gpu::Buffer(device, count * k * sizeof(float), "neighbor distances")};
-    const std::uint64_t part = std::min(count, std::max<std::uint64_t>(LIST_BYTES / (2 * k * PAIR_BYTES), 1));
-    const gpu::Buffer found(device, 2 * part * k * PAIR_BYTES, "neighbor lists");
+    const std::uint64_t stride = ROW_STRIDE(std::uint64_t{k});
+    const std::uint64_t part = std::min(count, std::max<std::uint64_t>(LIST_BYTES / (stride * PAIR_BYTES), 1));
+    const gpu::Buffer found(device, part * stride * PAIR_BYTES, "neighbor lists");
     const gpu::Buffer found_counts(device, part * sizeof(std::uint32_t), "neighbor lists");
+    const Lists lists{device, k, found, found_counts, ordered.result_rows, neighbors};
     const GatherKernel list{"photons/list_neighbors.comp",
                             {"CUT_TIES", "BY_ID", "WITHOUT_SELF"},
                             {{"radii", radii}, {"found_neighbors", found}, {"found_counts", found_counts}}};
     for (std::uint64_t first = 0; first < count; first += part) {
         const std::uint64_t rows = std::min(part, count - first);
-        const auto row_first = static_cast<std::uint32_t>(first);
-        const shared::ListSettings push{make_gather_settings(neighborhood, k + 1), row_first, k, 0, 0};
+        const shared::ListSettings push{make_gather_settings(neighborhood, k + 1), static_cast<std::uint32_t>(first), k,
+                                        0, 0};
         run_gather(device, neighborhood, asked, list, std::as_bytes(std::span(&push, 1)), first, rows, STAGE, progress);
-        gpu::run_in_chunks(device, STAGE, rows, SORT_GROUP * 16, progress,
-                           [&](gpu::Commands& commands, std::uint64_t begin, std::uint64_t size) {
-                               const shared::SortSettings sort{static_cast<std::uint32_t>(first + begin),
-                                                               static_cast<std::uint32_t>(size), row_first, k,
-                                                               static_cast<std::uint32_t>(part * k), 0, 0, 0};
-                               commands.dispatch(
-                                   {"photons/sort_neighbors.comp", SORT_GROUP, list_sort_defines(k), {}},
-                                   {{"found_neighbors", found},
-                                    {"found_counts", found_counts},
-                                    {"result_rows", ordered.result_rows},
-                                    {"neighbor_ids", neighbors.ids},
-                                    {"neighbor_distances", neighbors.distances}},
-                                   sort, size);
-                           });
+        lists.sort(first, rows, progress);
     }
     return neighbors;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lists the members of each query in any order. Inputs: the tree, the queries, radii. Outputs: found_neighbors (rows of
-// `k` pairs from query row_first on: measure bits, id), found_counts, unanswered.
+// ROW_STRIDE pairs from query row_first on: measure bits, id), found_counts, unanswered.
 #include "shared/prelude.glsl"
 #include "photons/candidates.glsl"
 
@@ -29,7 +29,7 @@ void main() {
         take_query(query, settings.gather.period, settings.gather.flatness);
         vec4 radius = radii[query];
         listed = 0.0;
-        my_row = settings.k * (query - settings.row_first);
+        my_row = ROW_STRIDE(settings.k) * (query - settings.row_first);
         bool is_listed = stream_members(settings.gather, has_query && radius.w > 0.0, radius);
         if (has_query) found_counts[query - settings.row_first] = uint(listed);
         report_turn(settings.gather, has_query, is_listed, query);

@@ -88,10 +88,13 @@ const float CARRIED_RADIUS = -1.0f;
 const uint TIES_UNCOUNTED = 2u;
 
 // Members as lists: rows in scratch memory from query row_first on.
+// Pairs from one list of k neighbours to the next: even, so that two are a texel.
+#define ROW_STRIDE(k) ((k) + (k) % 2u)
+
 struct ListSettings {
     GatherSettings gather;
     uint row_first;
-    uint k; // pairs a row
+    uint k;
     uint pad1;
     uint pad2;
 };
@@ -101,10 +104,6 @@ struct SortSettings {
     uint count;
     uint row_first;
     uint k;
-    uint room; // pairs from a row to the room behind
-    uint pad0;
-    uint pad1;
-    uint pad2;
 };
 
 // How far layers reach: β times the distance to the k-th neighbour in parameter space.

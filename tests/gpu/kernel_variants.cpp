@@ -37,8 +37,8 @@ const std::vector<std::string> SPACES{"",
 const std::vector<std::string> PARAMETERS{SPACES[5], SPACES[6]};
 const std::vector<std::string> OWN{"", "OWN_PHOTONS"};
 const std::vector<std::string> TIES{"", "CUT_TIES\n#define BY_ID", "CUT_TIES\n#define BY_ID\n#define WITHOUT_SELF"};
-const std::vector<std::string> RUN{"RUN 2u\n#define EACH_OF_RUN(DO) DO(0u) DO(1u)"}, NETWORK{"SORT_NETWORK(DO) DO(0, 1)"},
-    WAYS{"WAYS 2u\n#define EACH_WAY(DO) DO(0) DO(1)"};
+const std::vector<std::string> RUN{"RUN 2u\n#define EACH_OF_RUN(DO) DO(0u) DO(1u)\n#define EACH_PAIR_OF_RUN(DO) DO(0u)"},
+    NETWORK{"SORT_NETWORK(DO) DO(0, 1)"}, RUNS{"RUNS 2\n#define EACH_RUN(DO) DO(0) DO(1)"};
 const std::vector<std::string> SHELL{"SHELL_SIZE 2u\n#define EACH_KEPT(DO) DO(0) DO(1)"};
 const std::vector<std::string> RANGES{"", "RANGE_ROWS 2u"};
 const std::vector<std::string> SORT{"SORT_SIZE 32", "SORT_SIZE 64", "SORT_SIZE 128"};
@@ -60,7 +60,8 @@ const std::map<std::string, Factors> FACTORS{
     {"photons/find_radii.comp", {OWN, SPACES, PERIODIC, TIES, SHELL, {"", "CARRIED"}}},
     {"photons/list_neighbors.comp", {SPACES, {TIES[2]}, SINGLY}},
     {"photons/select_radius.comp", {SPACES, PERIODIC, {"BY_ID", TIES[1], TIES[2]}}},
-    {"photons/sort_neighbors.comp", {RUN, NETWORK, WAYS}},
+    {"photons/sort_neighbors.comp", {RUN, NETWORK, {"", "IS_WHOLE"}}},
+    {"photons/merge_neighbors.comp", {RUN, RUNS}},
     {"photons/refit_nodes.comp", {RANGES}},
     {"photons/scale_axes.comp", {{"RANGE_ROWS 2u"}, {"RANGE_AXES 7u"}, {"", "SPLIT_POSITIONS"}}},
     {"photons/split_nodes.comp", {RANGES}},
