@@ -43,7 +43,7 @@ float measure_box(uint node) {
 
 float measure_photon(uint position, vec3 offset) {
     if (settings.flatness > 0.0)
-        return faces_alike(normal, tree_normals_at(position).xyz) ? measure_on_surface(offset, normal, settings.flatness)
+        return faces_alike(normal, tree_normals_at(position).xyz) ? measure_on_surface(offset, make_steep(normal, settings.flatness))
                                                                   : INFINITY;
     precise float squared = offset.x * offset.x + offset.y * offset.y + offset.z * offset.z;
     return squared;

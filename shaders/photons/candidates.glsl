@@ -48,6 +48,9 @@ struct Candidate {
 struct Query {
     Place place;
 #ifdef ON_SURFACE
+    vec3 steep;
+#endif
+#ifdef OWN_NORMALS
     vec3 normal;
 #endif
 #ifdef ROW_COUNT
@@ -70,6 +73,7 @@ struct Node {
 
 Place my_place;
 vec3 my_normal;
+vec3 my_steep; // see photons/same_surface.glsl
 float my_flatness;
 float my_reach2;
 uint my_self;
@@ -159,7 +163,7 @@ float measure_candidate(Candidate other) {
 #else
     Place d = find_offset(other);
 #ifdef ON_SURFACE
-    float measure = measure_on_surface(d, my_normal, my_flatness);
+    float measure = measure_on_surface(d, my_steep);
 #else
     float measure = square_length(d);
 #endif
@@ -181,6 +185,9 @@ Query get_query() {
     Query own;
     own.place = my_place;
 #ifdef ON_SURFACE
+    own.steep = my_steep;
+#endif
+#ifdef OWN_NORMALS
     own.normal = my_normal;
 #endif
 #ifdef ROW_COUNT
@@ -196,6 +203,9 @@ Query share_query(Query mine, uint lane) {
     query.place = share_place(mine.place, lane);
 #endif
 #ifdef ON_SURFACE
+    query.steep = share_vector(mine.steep, lane);
+#endif
+#ifdef OWN_NORMALS
     query.normal = share_vector(mine.normal, lane);
 #endif
 #if defined(IN_PARAMETER_SPACE) || defined(SAME_LAYER)
@@ -230,7 +240,7 @@ float bound_measure(Query from, Node node) {
     bound = measure_box_gap(from.place, node.lo, node.hi);
 #ifdef ON_SURFACE
 #ifndef PERIODIC
-    bound = max(bound, bound_height2(from.normal, node.lo - from.place, node.hi - from.place, my_flatness));
+    bound = max(bound, bound_height2(from.steep, node.lo - from.place, node.hi - from.place));
 #endif
 #ifdef OWN_NORMALS
     bound = may_face_alike(from.normal, node.normal_lo, node.normal_hi) ? bound : INFINITY;
@@ -285,6 +295,7 @@ void take_query(uint i, vec4 space_period, float flatness) {
     my_reach2 = 0.0;
 #ifdef HAS_NORMALS
     my_normal = query_normals_at(i).xyz;
+    my_steep = make_steep(my_normal, flatness);
 #endif
 #ifdef ROW_COUNT
     load_row_periods();

@@ -9,12 +9,15 @@ const float PRODUCT_ROUNDING = 1e-6;
 
 bool faces_alike(vec3 normal, vec3 other_normal) { return dot(other_normal, normal) > SAME_SURFACE_COSINE; }
 
-// Square of the smallest radius r whose ball takes in a photon at offset `d`: |d| ≤ r and |n·d| ≤ flatness·r. No test of
-// the height when flatness is 0.
-float measure_on_surface(vec3 d, vec3 normal, float flatness) {
+// The normal, so long that its product with an offset is the radius the height asks for; 0: heights do not matter.
+vec3 make_steep(vec3 normal, float flatness) { return flatness > 0.0 ? normal / flatness : vec3(0.0); }
+
+// Square of the smallest radius r whose ball takes in a photon at offset `d`: |d| ≤ r and |n·d| ≤ flatness·r.
+float measure_on_surface(vec3 d, vec3 steep_normal) {
     precise float squared = d.x * d.x + d.y * d.y + d.z * d.z;
-    float height = flatness > 0.0 ? dot(normal, d) / flatness : 0.0;
-    return max(squared, height * height);
+    precise float radius = d.x * steep_normal.x + d.y * steep_normal.y + d.z * steep_normal.z;
+    float by_height = radius * radius;
+    return by_height > squared ? by_height : squared; // max() looks after NaN, at twice the cost
 }
 
 // The measure is at most this for photons at that squared distance.
@@ -28,12 +31,12 @@ bool may_face_alike(vec3 normal, vec3 lo, vec3 hi) {
     return most.x + most.y + most.z > SAME_SURFACE_COSINE - PRODUCT_ROUNDING;
 }
 
-// A bound below |n·d|/flatness, squared, over offsets within the box.
-float bound_height2(vec3 normal, vec3 d_lo, vec3 d_hi, float flatness) {
-    vec3 a = normal * d_lo, b = normal * d_hi;
+// A bound below the square of the radius that the height asks for, over offsets within the box.
+float bound_height2(vec3 steep_normal, vec3 d_lo, vec3 d_hi) {
+    vec3 a = steep_normal * d_lo, b = steep_normal * d_hi;
     vec3 least = min(a, b), most = max(a, b);
-    vec3 far = max(abs(d_lo), abs(d_hi));
-    float height = max(least.x + least.y + least.z, -(most.x + most.y + most.z));
-    height = max(height - PRODUCT_ROUNDING * max(far.x, max(far.y, far.z)), 0.0) / max(flatness, 1e-20);
-    return flatness > 0.0 ? height * height * (1.0 - 2.0 * PRODUCT_ROUNDING) : 0.0;
+    vec3 far = max(abs(a), abs(b));
+    float radius = max(least.x + least.y + least.z, -(most.x + most.y + most.z));
+    radius = max(radius - PRODUCT_ROUNDING * max(far.x, max(far.y, far.z)), 0.0);
+    return radius * radius * (1.0 - 2.0 * PRODUCT_ROUNDING);
 }
