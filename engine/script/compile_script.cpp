@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "script/check_script.h"
+#include "script/check/check_script.h"
 
 namespace photonloupe::script {
 

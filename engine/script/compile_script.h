@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "script/diagnostics.h"
-#include "script/emit.h"
+#include "script/emit/emit.h"
+#include "script/read/diagnostics.h"
 
 namespace photonloupe::script {
 

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "script/reductions.h"
+#include "script/interpret/reductions.h"
 
 namespace photonloupe::script {
 namespace {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "script/compile_script.h"
-#include "script/diagnostic_codes.h"
+#include "script/read/diagnostic_codes.h"
 #include "script/script_files.h"
 
 namespace photonloupe::test {
