@@ -65,7 +65,7 @@ struct Expression {
         builtin,     // `builtin`; operands: the arguments as written (left-out ones are absent)
         call,        // `function`; operands: its arguments, converted to the parameters' types
         assignment,  // `variable`; operands: value, then the index if it is an array's element. See `operation`,
-                    // `is_postfix` (evaluated in this order: index, value, old value of a compound assignment)
+                     // `is_postfix` (evaluated in this order: index, value, old value of a compound assignment)
     };
     Kind kind = Kind::number;
     Type type = Type::none;

@@ -27,7 +27,7 @@ void decompose_plane(float a, float b, float c, Decomposition& result) {
     const float root = std::sqrt(difference * difference + b * b);
     result.eigenvalues[0] = middle + root;
     result.eigenvalues[1] = std::fmax(middle - root, 0.0f);
-    float(&axis)[3] = result.eigenvectors[0];
+    float (&axis)[3] = result.eigenvectors[0];
     axis[0] = difference >= 0 ? difference + root : b;
     axis[1] = difference >= 0 ? b : root - difference;
     if (root > 0)
@@ -102,7 +102,7 @@ bool decompose_moments(const Moments& moments, std::int32_t dimensions, Decompos
     decomposition = {};
     if (moments.count < 2)
         return false;
-    const float(&p)[6] = moments.products;
+    const float (&p)[6] = moments.products;
     const float trace = dimensions == 2 ? p[0] + p[3] : p[0] + p[3] + p[5];
     if (!(trace > 0) || !std::isfinite(trace))
         return false;

@@ -126,7 +126,7 @@ void PassRunner::dispatch(gpu::Commands& commands, const Work& work, const share
     const auto choose = [&](const gpu::Buffer& buffer) -> const gpu::Buffer& {
         return buffer.is_empty() ? m_nothing : buffer;
     };
-    const auto choose_path = [&](gpu::Buffer PathColumns::*column) -> const gpu::Buffer& {
+    const auto choose_path = [&](gpu::Buffer PathColumns::* column) -> const gpu::Buffer& {
         return m_photons.paths ? choose((*m_photons.paths).*column) : m_nothing;
     };
     commands.dispatch(name_kernel(work.pass),
