@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Algorithms 1 and 2 of [SJL15] run exactly as printed. Their text is not part of the project; see `find_listings`."""
+"""Scripts that ask of the language what Algorithms 1 and 2 of [SJL15] do compute what the paper says.
+
+They are those of tests/script/paper; PHOTONLOUPE_LISTINGS names a folder with the printed ones, which then are held to
+the same.
+"""
 
 from __future__ import annotations
 
@@ -20,18 +24,19 @@ ARC = 7e-4
 TYPICAL = 2e-6
 
 
-def find_listings() -> Path | None:
-    """Find the folder PHOTONLOUPE_LISTINGS, else shared/listings beside the repository."""
-    beside = Path(__file__).resolve().parents[3] / "shared" / "listings"
-    folder = Path(os.environ.get("PHOTONLOUPE_LISTINGS") or beside)
-    return folder if folder.is_dir() else None
+def list_scripts(name: str, printed: str) -> list[Path]:
+    """Our script, and the printed one where it is at hand."""
+    listings = os.environ.get("PHOTONLOUPE_LISTINGS")
+    ours = SCENES.parent / "tests" / "script" / "paper" / f"{name}.photon"
+    return [ours, *([Path(listings) / f"{printed}.photon"] if listings else [])]
 
 
-def read_listing(name: str) -> str:
-    folder = find_listings()
-    if folder is None:
-        pytest.skip("the paper's listings are not here; PHOTONLOUPE_LISTINGS names their folder")
-    return (folder / f"{name}.photon").read_text()
+def get_name(path: Path) -> str:
+    return path.stem
+
+
+TORTUOSITY = list_scripts("tortuosity", "algorithm1")
+COMPONENTS = list_scripts("components", "algorithm2")
 
 
 @pytest.fixture(scope="module", params=MAPS)
@@ -48,15 +53,16 @@ def check_parameters(found: np.ndarray, expected: np.ndarray) -> None:
     assert np.nanquantile(np.abs(found - expected), 0.98) <= TYPICAL
 
 
-@pytest.mark.parametrize("name", ["algorithm1", "algorithm2"])
-def test_listing_is_one_parallel_pass_without_a_warning(name: str) -> None:
-    script = pl.compile_script(read_listing(name))
+@pytest.mark.parametrize("path", TORTUOSITY + COMPONENTS, ids=get_name)
+def test_script_is_one_parallel_pass_without_a_warning(path: Path) -> None:
+    script = pl.compile_script(path.read_text())
     assert script.diagnostics == ()
     assert [row["kind"] for row in script.passes] == ["parallel"]
 
 
-def test_algorithm_1_is_equation_1(photons: pl.PhotonMap) -> None:
-    run = photons.run_script(read_listing("algorithm1"))
+@pytest.mark.parametrize("path", TORTUOSITY, ids=get_name)
+def test_tortuosity_is_equation_1(path: Path, photons: pl.PhotonMap) -> None:
+    run = photons.run_script(path.read_text())
     twin = script_twins.tortuosity(photons, turns=ALPHA)
     assert run.parameter_names == ("GAMMA",)
     assert run.exposed == {"alpha": ALPHA}
@@ -71,8 +77,9 @@ def test_algorithm_1_is_equation_1(photons: pl.PhotonMap) -> None:
     assert np.all((difference <= limit)[~np.isnan(limit)])
 
 
-def test_algorithm_1_exposes_alpha(photons: pl.PhotonMap) -> None:
-    text = read_listing("algorithm1")
+@pytest.mark.parametrize("path", TORTUOSITY, ids=get_name)
+def test_tortuosity_exposes_alpha(path: Path, photons: pl.PhotonMap) -> None:
+    text = path.read_text()
     (alpha,) = pl.compile_script(text).exposed
     assert (alpha.name, alpha.low, alpha.high, alpha.default) == ("alpha", 1, 1000, ALPHA)
     usual, other = photons.run_script(text), photons.run_script(text, alpha=3)
@@ -80,26 +87,28 @@ def test_algorithm_1_exposes_alpha(photons: pl.PhotonMap) -> None:
     assert not np.array_equal(usual.colors, other.colors, equal_nan=True)
 
 
-def test_algorithm_2_is_ppca(photons: pl.PhotonMap) -> None:
-    run = photons.run_script(read_listing("algorithm2"))
+@pytest.mark.parametrize("path", COMPONENTS, ids=get_name)
+def test_components_are_ppca(path: Path, photons: pl.PhotonMap) -> None:
+    run = photons.run_script(path.read_text())
     assert run.parameter_names == ("U", "V")
     np.testing.assert_array_equal(run.parameter_bounds, np.float32([[-np.pi, np.pi]] * 2))
     check_parameters(run.parameters, script_twins.ppca(photons).parameters)
 
 
-def test_algorithm_2_gives_no_colors(photons: pl.PhotonMap) -> None:
-    colors = photons.run_script(read_listing("algorithm2")).colors
+@pytest.mark.parametrize("path", COMPONENTS, ids=get_name)
+def test_components_give_no_colors(path: Path, photons: pl.PhotonMap) -> None:
+    colors = photons.run_script(path.read_text()).colors
     assert colors is None or np.isnan(colors).all()
 
 
-@pytest.mark.parametrize(("listing", "script"), [("algorithm1", "tortuosity"), ("algorithm2", "ppca")])
-def test_script_of_the_folder_computes_what_the_listing_computes(
-    listing: str, script: str, photons: pl.PhotonMap
-) -> None:
-    expected = photons.run_script(read_listing(listing)).parameters
+@pytest.mark.parametrize(
+    ("path", "script"), [(path, "tortuosity") for path in TORTUOSITY] + [(path, "ppca") for path in COMPONENTS]
+)
+def test_script_of_the_folder_computes_the_same(path: Path, script: str, photons: pl.PhotonMap) -> None:
+    expected = photons.run_script(path.read_text()).parameters
     check_parameters(photons.run_script(SCENES / "scripts" / f"{script}.photon").parameters, expected)
 
 
-@pytest.mark.parametrize("name", ["algorithm1", "algorithm2"])
-def test_listing_reports_no_fault(name: str, photons: pl.PhotonMap) -> None:
-    assert photons.run_script(read_listing(name)).report["faults"] == []
+@pytest.mark.parametrize("path", TORTUOSITY + COMPONENTS, ids=get_name)
+def test_script_reports_no_fault(path: Path, photons: pl.PhotonMap) -> None:
+    assert photons.run_script(path.read_text()).report["faults"] == []
