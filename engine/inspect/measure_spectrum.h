@@ -10,7 +10,7 @@
 #include "core/progress.h"
 #include "gpu/device.h"
 
-namespace photonloupe {
+namespace photonloupe::inspect {
 
 // Power at whole frequencies; that of −k equals that of k, so only one of the two is there, and k = 0 is left out.
 struct Spectrum {
@@ -28,4 +28,4 @@ std::vector<glm::ivec2> list_half_plane(glm::dvec2 radius);
 Spectrum measure_spectrum(gpu::Device& device, std::span<const glm::dvec2> points, glm::dvec2 radius,
                           const Progress& progress = {});
 
-} // namespace photonloupe
+} // namespace photonloupe::inspect

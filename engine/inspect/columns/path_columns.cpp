@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "inspect/column_source.h"
+#include "inspect/columns/column_source.h"
 #include "inspect/trajectories.h"
 #include "photons/map_columns.h"
 

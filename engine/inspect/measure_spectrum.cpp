@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lists the frequencies and streams the points past them, block by block.
-#include "relax/measure_spectrum.h"
+#include "inspect/measure_spectrum.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 #include "gpu/commands.h"
 
-namespace photonloupe {
+namespace photonloupe::inspect {
 namespace {
 
 // Pairs of points that one dispatch adds up: a quarter of the loop turns an invocation has (shaders/shared/turns.glsl).
@@ -105,4 +105,4 @@ Spectrum measure_spectrum(gpu::Device& device, std::span<const glm::dvec2> point
     return spectrum;
 }
 
-} // namespace photonloupe
+} // namespace photonloupe::inspect

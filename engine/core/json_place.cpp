@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checked reading of JSON values: wrong kinds, ranges and indices are refused by place.
-#include "scene/json_place.h"
+#include "core/json_place.h"
 
 #include <cmath>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds a column's source by name and fills in range and kind.
-#include "inspect/columns.h"
+#include "inspect/columns/columns.h"
 
 #include <cmath>
 #include <set>
 
-#include "inspect/column_source.h"
+#include "inspect/columns/column_source.h"
 #include "inspect/photon_colors.h"
 
 namespace photonloupe::inspect {

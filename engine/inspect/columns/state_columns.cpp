@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "inspect/column_source.h"
+#include "inspect/columns/column_source.h"
 
 namespace photonloupe::inspect {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <set>
 
-#include "inspect/column_source.h"
+#include "inspect/columns/column_source.h"
 #include "inspect/luminance.h"
 #include "shared/trace.h"
 
