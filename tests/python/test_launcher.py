@@ -45,6 +45,7 @@ class Tree:
         (self.root / "engine" / "a.cpp").write_text("int a;")
         (self.root / "engine" / "b.cpp").write_text("int b;")
         (self.root / "python" / "requirements.txt").write_text("numpy\n")
+        (self.root / "python" / "requirements-checks.txt").write_text("ruff\n")
         for name in ("CMakeLists.txt", "pyproject.toml"):
             (self.root / name).write_text("")
         shutil.copy(SCENES.parent / "photonloupe", self.root)
@@ -177,3 +178,10 @@ def test_test_fails_where_either_suite_does(ready: Tree, cpp: int, python: str, 
     tests.write_text(f"#!/bin/sh\nexit {cpp}\n")
     tests.chmod(0o755)
     assert ready.run("test", "-q", FAIL=python).returncode == code
+
+
+def test_lint_installs_its_tools_once(ready: Tree) -> None:
+    ready.run("lint", "ruff")
+    assert ready.list_steps() == ["requirements"]
+    ready.run("lint", "ruff")
+    assert ready.log.read_text() == f"{ready.root}/.ci/lint.py ruff\n"

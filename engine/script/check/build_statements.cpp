@@ -126,9 +126,12 @@ void TreeBuilder::build_loop(const SyntaxStatement& syntax, std::vector<Statemen
         loop.last.push_back(build_any(expression));
     --m_context.loop_depth;
     m_scopes.pop_back();
-    if (declares)
-        block.body.push_back(std::move(loop));
-    out.push_back(declares ? std::move(block) : std::move(loop));
+    if (!declares) {
+        out.push_back(std::move(loop));
+        return;
+    }
+    block.body.push_back(std::move(loop));
+    out.push_back(std::move(block));
 }
 
 void TreeBuilder::build_jump(const SyntaxStatement& syntax, std::vector<Statement>& out) {
