@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Binds engine/inspect: columns, histograms, the loupe.
+// Binds engine/inspect: columns, histograms, the loupe, spectra.
 #include "binding.h"
 
-#include "inspect/columns.h"
+#include "inspect/columns/columns.h"
 #include "inspect/histogram.h"
 #include "inspect/loupe.h"
+#include "inspect/measure_spectrum.h"
 
 namespace photonloupe::bindings {
 namespace {
@@ -156,6 +157,18 @@ nb::dict count(const Matrix1& values, std::uint32_t bins, std::optional<std::pai
     return row;
 }
 
+nb::tuple measure(OpenDevice& open, Matrix<const double, 2> points, std::array<double, 2> radius, nb::object progress) {
+    const auto* first = reinterpret_cast<const glm::dvec2*>(points.data());
+    Spectrum spectrum = PythonProgress(std::move(progress)).run([&](const Progress& asked) {
+        return measure_spectrum(open.device, {first, points.shape(0)}, {radius[0], radius[1]}, asked);
+    });
+    std::vector<std::int32_t> frequencies;
+    frequencies.reserve(2 * spectrum.frequencies.size());
+    for (const glm::ivec2& frequency : spectrum.frequencies)
+        frequencies.insert(frequencies.end(), {frequency.x, frequency.y});
+    return nb::make_tuple(own_array(std::move(frequencies), 2), own_array(std::move(spectrum.power)));
+}
+
 } // namespace
 
 void bind_inspect(nb::module_& module) {
@@ -174,9 +187,7 @@ void bind_inspect(nb::module_& module) {
                "Histogram of values (n,): counts, edges, cdf, below, above, non_finite; bounds stand in for no range.");
     module.def(
         "find_quantile",
-        [](const Matrix1& values, double share) {
-            return find_quantile({values.data(), values.size()}, share);
-        },
+        [](const Matrix1& values, double share) { return find_quantile({values.data(), values.size()}, share); },
         nb::arg("values"), nb::arg("share"), "The value that a share of the finite ones lie below.");
     module.def(
         "find_share_above",
@@ -189,6 +200,10 @@ void bind_inspect(nb::module_& module) {
                "What a loupe shows; query: point, normal, photon, k, space, beta, center, low, high.");
     module.def("read_path_lines", &list_lines, nb::arg("photons"), nb::arg("ids"),
                "(vertices (m, 3), interactions (m,)) of each photon's path.");
+    module.def("measure_spectrum", &measure, nb::arg("device"), nb::arg("points"), nb::arg("radius"),
+               nb::arg("progress").none() = nb::none(),
+               "Frequencies (m, 2) of a half plane up to `radius` cycles over the sides, and the power (m,) of points "
+               "(n, 2) in sides.");
 }
 
 } // namespace photonloupe::bindings

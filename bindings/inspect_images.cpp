@@ -3,7 +3,7 @@
 #include "binding.h"
 
 #include "estimate/camera_frame.h"
-#include "inspect/columns.h"
+#include "inspect/columns/columns.h"
 #include "inspect/error_map.h"
 #include "inspect/kd_cells.h"
 #include "inspect/photon_colors.h"

@@ -2,7 +2,6 @@
 // Binds engine/relax: a relaxation that is stepped, and what came of it as arrays.
 #include "binding.h"
 
-#include "relax/measure_spectrum.h"
 #include "relax/relaxation.h"
 
 namespace photonloupe::bindings {
@@ -100,18 +99,6 @@ nb::tuple read(OpenRelaxation& open) {
     return nb::make_tuple(photons, arrays, off_surface_count);
 }
 
-nb::tuple measure(OpenDevice& open, Matrix<const double, 2> points, std::array<double, 2> radius, nb::object progress) {
-    const auto* first = reinterpret_cast<const glm::dvec2*>(points.data());
-    Spectrum spectrum = PythonProgress(std::move(progress)).run([&](const Progress& asked) {
-        return measure_spectrum(open.device, {first, points.shape(0)}, {radius[0], radius[1]}, asked);
-    });
-    std::vector<std::int32_t> frequencies;
-    frequencies.reserve(2 * spectrum.frequencies.size());
-    for (const glm::ivec2& frequency : spectrum.frequencies)
-        frequencies.insert(frequencies.end(), {frequency.x, frequency.y});
-    return nb::make_tuple(own_array(std::move(frequencies), 2), own_array(std::move(spectrum.power)));
-}
-
 } // namespace
 
 void bind_relax(nb::module_& module) {
@@ -131,10 +118,6 @@ void bind_relax(nb::module_& module) {
         },
         nb::arg("device"), nb::arg("photons"), nb::arg("k"), nb::arg("progress").none() = nb::none(),
         "Axis ratios (n,) of the world positions of each photon's k neighbours in parameter space; NaN: none.");
-    module.def("measure_spectrum", &measure, nb::arg("device"), nb::arg("points"), nb::arg("radius"),
-               nb::arg("progress").none() = nb::none(),
-               "Frequencies (m, 2) of a half plane up to `radius` cycles over the sides, and the power (m,) of points "
-               "(n, 2) in sides.");
     module.def("start_relaxation", &start, nb::arg("device"), nb::arg("photons"), nb::arg("scene").none(),
                nb::arg("settings"), nb::arg("progress").none() = nb::none(), nb::keep_alive<0, 1>(),
                "Measure the constraint and stand ready; settings: steps, neighbors, over_relaxation, limit, repel, "

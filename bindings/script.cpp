@@ -4,7 +4,7 @@
 
 #include "core/hash.h"
 #include "script/builtins.h"
-#include "script/diagnostic_codes.h"
+#include "script/read/diagnostic_codes.h"
 
 namespace photonloupe::bindings {
 namespace {

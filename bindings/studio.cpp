@@ -170,10 +170,8 @@ void bind_input(nb::class_<Studio>& type) {
 void bind_work(nb::class_<Studio>& type) {
     type.def("take_job", &take_job,
              "(kind, key, settings as JSON) of the next piece of work, once; None: there is none.")
-        .def("end_job",
-             [](Studio& self, const std::string& kind, const std::string& key, const std::string& error) {
-                 self.end_job({kind, key, {}}, error);
-             })
+        .def("end_job", [](Studio& self, const std::string& kind, const std::string& key,
+                           const std::string& error) { self.end_job({kind, key, {}}, error); })
         .def("report_progress", &Studio::report_progress)
         .def("stop_job", &Studio::stop_job)
         .def("take_requests", &Studio::take_requests)

@@ -13,7 +13,7 @@
 #include "photons/layer_scale.h"
 #include "relax/isotropy.h"
 #include "relax/relaxation.h"
-#include "script/run_script.h"
+#include "script/run/run_script.h"
 #include "trace/trace_photons.h"
 
 namespace photonloupe {

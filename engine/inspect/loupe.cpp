@@ -139,7 +139,7 @@ void Look::describe_constraint(LoupeView& view) const {
     view.across = view.has_constraint ? take_vector(state->basis, 6 * center + 3) : view.spread.across;
     view.freedom_along = view.has_constraint ? 1 - state->weights[2 * center] : 1;
     view.freedom_across = view.has_constraint ? 1 - state->weights[2 * center + 1] : 1;
-    const auto find = [&](std::vector<float> RelaxedState::*field) {
+    const auto find = [&](std::vector<float> RelaxedState::* field) {
         return state && !(state->*field).empty() ? (state->*field)[center] : UNKNOWN;
     };
     view.numbers.one_sidedness = find(&RelaxedState::one_sidedness);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/json_place.h"
+#include "core/json_place.h"
 
 namespace photonloupe {
 

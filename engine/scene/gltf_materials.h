@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "scene/json_place.h"
+#include "core/json_place.h"
 
 namespace photonloupe {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/json_place.h"
+#include "core/json_place.h"
 
 namespace photonloupe {
 

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/error.h"
-#include "scene/json_place.h"
+#include "core/json_place.h"
 #include "scene/limits.h"
 #include "scene/triangle_math.h"
 

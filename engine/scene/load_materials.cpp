@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "scene/json_place.h"
+#include "core/json_place.h"
 
 namespace photonloupe {
 namespace {

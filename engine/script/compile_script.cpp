@@ -4,14 +4,14 @@
 
 #include <algorithm>
 
-#include "script/check_script.h"
+#include "script/check/check_script.h"
 
 namespace photonloupe::script {
 
-std::unique_ptr<CompiledScript> compile_script(Source source) {
+std::unique_ptr<CompiledScript> compile_script(const Source& source) {
     auto compiled = std::make_unique<CompiledScript>();
     Diagnostics diagnostics;
-    compiled->program = check_script(std::move(source), diagnostics);
+    compiled->program = check_script(source, diagnostics);
     if (!diagnostics.has_errors()) {
         compiled->plan = plan_photon_loops(compiled->program, diagnostics);
         for (const PhotonLoop& loop : compiled->plan.loops) {

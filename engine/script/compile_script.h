@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "script/diagnostics.h"
-#include "script/emit.h"
+#include "script/emit/emit.h"
+#include "script/read/diagnostics.h"
 
 namespace photonloupe::script {
 
@@ -19,7 +19,7 @@ struct CompiledScript {
 };
 
 // Never throws for what a source may hold.
-std::unique_ptr<CompiledScript> compile_script(Source source);
+std::unique_ptr<CompiledScript> compile_script(const Source& source);
 
 // Throws ScriptError when it has errors.
 void require_script(const CompiledScript& script);

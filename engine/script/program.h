@@ -7,32 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "script/source.h"
+#include "script/read/operators.h"
+#include "script/read/source.h"
 
 namespace photonloupe::script {
 
 struct Builtin;
 
 enum class Type : std::uint8_t { none, integer, real, list, text }; // truth values are the integers 0 and 1
-
-enum class Operator : std::uint8_t {
-    none,
-    negate,
-    logical_not,
-    add,
-    subtract,
-    multiply,
-    divide,
-    modulo,
-    equal,
-    not_equal,
-    less,
-    less_equal,
-    greater,
-    greater_equal,
-    logical_and,
-    logical_or,
-};
 
 // Photon columns a script can read; bits of a set.
 enum Columns : std::uint32_t {
@@ -83,7 +65,7 @@ struct Expression {
         builtin,     // `builtin`; operands: the arguments as written (left-out ones are absent)
         call,        // `function`; operands: its arguments, converted to the parameters' types
         assignment,  // `variable`; operands: value, then the index if it is an array's element. See `operation`,
-                    // `is_postfix` (evaluated in this order: index, value, old value of a compound assignment)
+                     // `is_postfix` (evaluated in this order: index, value, old value of a compound assignment)
     };
     Kind kind = Kind::number;
     Type type = Type::none;

@@ -10,7 +10,7 @@
 
 #include "core/atomic_file.h"
 #include "core/error.h"
-#include "scene/json_place.h"
+#include "core/json_place.h"
 #include "studio/session_fields.h"
 
 namespace photonloupe::studio {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "inspect/columns.h"
+#include "inspect/columns/columns.h"
 #include "inspect/loupe.h"
 #include "studio/camera.h"
 #include "studio/fonts.h"

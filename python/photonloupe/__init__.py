@@ -28,6 +28,7 @@ from photonloupe.errors import (
 )
 from photonloupe.image import Image, load_image
 from photonloupe.isotropy import Isotropy, OptimalBeta, optimal_beta
+from photonloupe.kernels import use_kernels_in_place
 from photonloupe.loading import load_photons
 from photonloupe.metrics import ImageDifference, compare_images
 from photonloupe.photons import PhotonMap
@@ -38,6 +39,8 @@ from photonloupe.scripting import Diagnostic, ExposedVariable, Histogram, Script
 from photonloupe.studio import Studio
 from photonloupe.tracing import trace_photons
 from photonloupe.trajectory import find_primal_trajectory
+
+use_kernels_in_place()
 
 __all__ = [
     "ArgumentError",

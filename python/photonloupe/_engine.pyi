@@ -204,11 +204,6 @@ def measure_isotropy(device: Device, photons: PhotonMap, k: int, progress: objec
     Axis ratios (n,) of the world positions of each photon's k neighbours in parameter space; NaN: none.
     """
 
-def measure_spectrum(device: Device, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', writable=False)], radius: Sequence[float], progress: object | None = None) -> tuple:
-    """
-    Frequencies (m, 2) of a half plane up to `radius` cycles over the sides, and the power (m,) of points (n, 2) in sides.
-    """
-
 def start_relaxation(device: Device, photons: PhotonMap, scene: object | None, settings: dict, progress: object | None = None) -> Relaxation:
     """
     Measure the constraint and stand ready; settings: steps, neighbors, over_relaxation, limit, repel, beta, search, diffuse_flux, period, descriptor, constraint, constraint_neighbors, thresholds.
@@ -263,6 +258,11 @@ def look_through_loupe(device: Device, photons: PhotonMap, query: dict, progress
 
 def read_path_lines(photons: PhotonMap, ids: Sequence[int]) -> list:
     """(vertices (m, 3), interactions (m,)) of each photon's path."""
+
+def measure_spectrum(device: Device, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order='C', writable=False)], radius: Sequence[float], progress: object | None = None) -> tuple:
+    """
+    Frequencies (m, 2) of a half plane up to `radius` cycles over the sides, and the power (m,) of points (n, 2) in sides.
+    """
 
 def see_surfaces(device: Device, scene: Scene, settings: dict, progress: object | None = None) -> tuple:
     """

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Running values of reductions (engine/script/reductions.h): a word for each slot of a block and lane of 64.
+// Running values of reductions (engine/script/interpret/reductions.h): a word for each slot of a block and lane of 64.
 #pragma binding uint lane_words
 
 uint lane_base; // of the present block and lane

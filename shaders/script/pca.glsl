@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Principal component analysis: moments of pushed points and their decomposition, step by step as
-// engine/script/reductions.cpp and decompose_moments.cpp.
+// engine/script/interpret/reductions.cpp and decompose_moments.cpp.
 
 struct Moments {
     int count;

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "script/compile_script.h"
-#include "script/interpreter.h"
+#include "script/interpret/interpreter.h"
 
 namespace photonloupe::test {
 

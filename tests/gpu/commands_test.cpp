@@ -59,7 +59,9 @@ TEST(Commands, unknown_kernel_is_named) {
 }
 
 TEST(Commands, batch_that_was_never_run_leaves_the_device_usable) {
-    { const gpu::Commands commands(get_device(), "abandoned"); }
+    {
+        const gpu::Commands commands(get_device(), "abandoned");
+    }
     EXPECT_EQ(run_probe<glm::vec4>(get_device(), "probe_exact.comp", VECTORS, {"TERMS 1"})[999].w, 3.5f);
 }
 

@@ -88,14 +88,12 @@ glm::vec3 normalize_one(float x, float y, float z) {
 constexpr double ULP_OF_ONE = 1.0 / (1 << 23);
 
 TEST(Math, sine_is_within_two_ulp_of_one) {
-    const Worst worst = find_worst(
-        SIN_COS, sample_range(-8192, 8192), [](double x) { return std::sin(x); }, true, 0);
+    const Worst worst = find_worst(SIN_COS, sample_range(-8192, 8192), [](double x) { return std::sin(x); }, true, 0);
     EXPECT_LT(worst.error, 2 * ULP_OF_ONE) << "at " << worst.input;
 }
 
 TEST(Math, cosine_is_within_two_ulp_of_one) {
-    const Worst worst = find_worst(
-        SIN_COS, sample_range(-8192, 8192), [](double x) { return std::cos(x); }, true, 1);
+    const Worst worst = find_worst(SIN_COS, sample_range(-8192, 8192), [](double x) { return std::cos(x); }, true, 1);
     EXPECT_LT(worst.error, 2 * ULP_OF_ONE) << "at " << worst.input;
 }
 

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "inspect/columns.h"
+#include "inspect/columns/columns.h"
 #include "inspect/inspect_maps.h"
 
 namespace photonloupe::test {

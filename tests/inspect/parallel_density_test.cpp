@@ -77,8 +77,8 @@ TEST(ParallelDensity, of_a_wound_axis_is_over_one_turn) {
 }
 
 TEST(ParallelDensity, of_an_axis_wound_sixty_times_is_over_one_turn) {
-    expect_kernel_sum(make_column(draw_values(50, 3, 1), 0, 6),
-                      {.low = 0, .high = 6, .is_closed = true, .periods = 60}, 0.1);
+    expect_kernel_sum(make_column(draw_values(50, 3, 1), 0, 6), {.low = 0, .high = 6, .is_closed = true, .periods = 60},
+                      0.1);
 }
 
 TEST(ParallelDensity, cluster_across_the_seam_is_as_narrow_as_elsewhere) {

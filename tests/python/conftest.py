@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import os
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,6 +22,15 @@ SCENES = Path(generate.__file__).resolve().parent
 
 def find_scene(name: str) -> Path:
     return SCENES / name / f"{name}.gltf"
+
+
+@pytest.fixture(autouse=True)
+def clean_repository() -> Iterator[None]:
+    """Fail a test that leaves something at the repository's root, where tests are started."""
+    before = set(os.listdir(SCENES.parent))
+    yield
+    left = {name for name in set(os.listdir(SCENES.parent)) - before if not name.startswith(".")}
+    assert not left, f"left at the repository's root: {', '.join(sorted(left))}; write into tmp_path"
 
 
 @pytest.fixture(scope="session")

@@ -15,14 +15,20 @@ import pytest
 
 from conftest import SCENES
 
-# Logs its arguments; `-m venv X` copies it to X/bin/python; fails where FAIL matches the arguments.
+# Logs its arguments; `-m venv X` copies it to X/bin/python; fails, with CODE, where FAIL matches the arguments.
 FAKE_PYTHON = """#!/bin/bash
 echo "$*" >> "$LOG"
-if [ -n "${FAIL:-}" ] && [[ "$*" == *"$FAIL"* ]]; then echo "the reason"; exit 1; fi
+if [ -n "${FAIL:-}" ] && [[ "$*" == *"$FAIL"* ]]; then echo "the reason"; exit "${CODE:-1}"; fi
 case "$*" in
   *"-m venv "*) mkdir -p "${@: -1}/bin"; cp "$0" "${@: -1}/bin/python" ;;
   *"-m photonloupe"*) echo "ran $*" ;;
 esac
+"""
+# Logs its arguments; holds the tests NAMES.
+FAKE_TESTS = """#!/bin/bash
+echo "tests $*" >> "$LOG"
+[[ "$*" != *--gtest_list_tests* ]] || printf '%s\\n' "Suite." ${NAMES:+"  $NAMES"}
+exit "${CPP:-0}"
 """
 FAKE_DPKG = """#!/bin/bash
 for name in "${@:3}"; do [[ " $MISSING " == *" $name "* ]] || echo "$name installed"; done
@@ -45,6 +51,10 @@ class Tree:
         (self.root / "engine" / "a.cpp").write_text("int a;")
         (self.root / "engine" / "b.cpp").write_text("int b;")
         (self.root / "python" / "requirements.txt").write_text("numpy\n")
+        (self.root / "python" / "requirements-checks.txt").write_text("ruff\n")
+        (self.root / "python" / "a.py").write_text("a = 1\n")
+        (self.root / "shaders" / "a.comp").write_text("void main() {}\n")
+        (self.root / "shaders" / "a.h").write_text("struct A {};\n")
         for name in ("CMakeLists.txt", "pyproject.toml"):
             (self.root / name).write_text("")
         shutil.copy(SCENES.parent / "photonloupe", self.root)
@@ -105,6 +115,21 @@ def test_second_call_sets_nothing_up(ready: Tree) -> None:
 
 def test_changed_source_rebuilds_only(ready: Tree) -> None:
     (ready.root / "engine" / "a.cpp").write_text("int changed;")
+    ready.run("doctor")
+    assert ready.list_steps() == ["wheel"]
+
+
+@pytest.mark.parametrize("name", ["python/a.py", "shaders/a.comp"])
+def test_changed_python_source_or_kernel_builds_nothing(ready: Tree, name: str) -> None:
+    assert "--editable" in ready.log.read_text()
+    (ready.root / name).write_text("changed")
+    ready.run("doctor")
+    assert ready.list_steps() == []
+
+
+@pytest.mark.parametrize("name", ["shaders/a.h", "python/b.py"])
+def test_changed_layout_and_new_module_are_built(ready: Tree, name: str) -> None:
+    (ready.root / name).write_text("changed")
     ready.run("doctor")
     assert ready.list_steps() == ["wheel"]
 
@@ -170,10 +195,51 @@ def test_old_python_is_refused(tree: Tree) -> None:
     assert "PHOTONLOUPE_PYTHON" in done.stderr
 
 
-@pytest.mark.parametrize(("cpp", "python", "code"), [(0, "", 0), (1, "", 1), (0, "-m pytest", 1)])
-def test_test_fails_where_either_suite_does(ready: Tree, cpp: int, python: str, code: int) -> None:
+@pytest.fixture
+def built(ready: Tree) -> Tree:
     tests = ready.root / "build" / "wheel" / "photonloupe_tests"
     tests.parent.mkdir(parents=True, exist_ok=True)
-    tests.write_text(f"#!/bin/sh\nexit {cpp}\n")
+    tests.write_text(FAKE_TESTS)
     tests.chmod(0o755)
-    assert ready.run("test", "-q", FAIL=python).returncode == code
+    return ready
+
+
+@pytest.mark.parametrize(("cpp", "python", "code"), [(0, "", 0), (1, "", 1), (0, "-m pytest", 1)])
+def test_test_fails_where_either_suite_does(built: Tree, cpp: int, python: str, code: int) -> None:
+    assert built.run("test", "-q", CPP=str(cpp), FAIL=python).returncode == code
+
+
+@pytest.mark.parametrize(("words", "patterns"), [("tree", "*tree*"), ("tree or knn", "*tree*:*knn*")])
+def test_test_selects_by_word_in_both_suites(built: Tree, words: str, patterns: str) -> None:
+    assert built.run("test", "-k", words, "-x").returncode == 0
+    assert built.log.read_text().splitlines() == [
+        f"tests --gtest_brief=1 --gtest_filter={patterns}",
+        f"-P -m pytest -k {words} -x",
+    ]
+
+
+@pytest.mark.parametrize("arguments", [["-k"], ["-k", "a and b"], ["-k", "not a"], ["-k", "a[1]"]])
+def test_test_refuses_what_only_one_suite_could_select(built: Tree, arguments: list[str]) -> None:
+    done = built.run("test", *arguments)
+    assert done.returncode == 2
+    assert "test -k" in done.stderr
+    assert built.log.read_text() == ""
+
+
+@pytest.mark.parametrize(("names", "code"), [("a_tree_is_built", 0), ("", 2)])
+def test_word_may_be_found_in_one_suite_alone(built: Tree, names: str, code: int) -> None:
+    done = built.run("test", "-k", "tree", NAMES=names, FAIL="-m pytest", CODE="5")
+    assert done.returncode == code
+    assert ("no test has 'tree' in its name" in done.stderr) == (code != 0)
+
+
+def test_test_explains_its_arguments(built: Tree) -> None:
+    assert "-k WORD" in built.run("test", "--help").stdout
+    assert built.log.read_text() == ""
+
+
+def test_lint_installs_its_tools_once(ready: Tree) -> None:
+    ready.run("lint", "ruff")
+    assert ready.list_steps() == ["requirements"]
+    ready.run("lint", "ruff")
+    assert ready.log.read_text() == f"{ready.root}/.ci/lint.py ruff\n"

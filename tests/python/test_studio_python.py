@@ -134,9 +134,9 @@ def test_copied_program_of_a_saved_map_runs(tmp_path: Path, monkeypatch: pytest.
         np.testing.assert_array_equal(names["photons"].positions, studio.photons.positions)
 
 
-def test_empty_studio_gives_a_program_that_runs() -> None:
+def test_empty_studio_gives_a_program_that_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with open_empty(size=(400, 300)) as studio:
-        exec(studio.python(), {})
+        execute(studio, tmp_path, monkeypatch)
 
 
 def test_key_copies_the_program() -> None:

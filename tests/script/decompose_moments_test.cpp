@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "script/reductions.h"
+#include "script/interpret/reductions.h"
 
 namespace photonloupe::script {
 namespace {
@@ -102,7 +102,7 @@ TEST(Decomposition, eigenvectors_of_space_satisfy_their_equation) {
             point = {normal(random), normal(random) * flatness + normal(random) * 0.1f, normal(random)};
         const Moments moments = push_all(points, 3);
         const Decomposition found = decompose(points, 3);
-        const float(&p)[6] = moments.products;
+        const float (&p)[6] = moments.products;
         const float matrix[3][3] = {{p[0], p[1], p[2]}, {p[1], p[3], p[4]}, {p[2], p[4], p[5]}};
         EXPECT_GE(found.eigenvalues[0], found.eigenvalues[1]);
         EXPECT_GE(found.eigenvalues[1], found.eigenvalues[2]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How complaints look: place, line, caret, note; whatever bytes the script is made of.
-#include "script/diagnostics.h"
+#include "script/read/diagnostics.h"
 
 #include <gtest/gtest.h>
 

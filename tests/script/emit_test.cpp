@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Emitted GLSL at the edges: strange names and comments, depth, length, what is left out, what never recompiles.
-#include "script/emit.h"
+#include "script/emit/emit.h"
 
 #include <string>
 

@@ -3,8 +3,8 @@
 
 #include <stdexcept>
 
-#include "script/check_script.h"
-#include "script/interpreter.h"
+#include "script/check/check_script.h"
+#include "script/interpret/interpreter.h"
 
 namespace photonloupe::script::tests {
 

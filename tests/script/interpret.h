@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "core/progress.h"
-#include "script/host_photons.h"
-#include "script/run_outputs.h"
-#include "script/run_settings.h"
-#include "script/script_state.h"
+#include "script/interpret/host_photons.h"
+#include "script/interpret/run_outputs.h"
+#include "script/interpret/run_settings.h"
+#include "script/interpret/script_state.h"
 
 namespace photonloupe::script::tests {
 

@@ -76,25 +76,19 @@ void expect_within(const std::string& call, const std::vector<glm::vec4>& inputs
 
 TEST(ScriptMath, sine_and_cosine_hold_for_every_size) {
     for (const auto& inputs : {sample_magnitudes(-20, 127.9), sample_magnitudes(-1, 14), sample_range(-10, 10)}) {
-        expect_within(
-            "script_sin(v.x)", inputs, [](double x, double) { return std::sin(x); }, 3);
-        expect_within(
-            "script_cos(v.x)", inputs, [](double x, double) { return std::cos(x); }, 3);
-        expect_within(
-            "script_tan(v.x)", inputs, [](double x, double) { return std::tan(x); }, 6);
+        expect_within("script_sin(v.x)", inputs, [](double x, double) { return std::sin(x); }, 3);
+        expect_within("script_cos(v.x)", inputs, [](double x, double) { return std::cos(x); }, 3);
+        expect_within("script_tan(v.x)", inputs, [](double x, double) { return std::tan(x); }, 6);
     }
 }
 
 TEST(ScriptMath, arc_functions_are_within_their_ulps) {
     for (const auto& inputs : {sample_range(-1, 1), sample_magnitudes(-60, 0)}) {
-        expect_within(
-            "script_acos(v.x)", inputs, [](double x, double) { return std::acos(x); }, 4);
-        expect_within(
-            "script_asin(v.x)", inputs, [](double x, double) { return std::asin(x); }, 3);
+        expect_within("script_acos(v.x)", inputs, [](double x, double) { return std::acos(x); }, 4);
+        expect_within("script_asin(v.x)", inputs, [](double x, double) { return std::asin(x); }, 3);
     }
     for (const auto& inputs : {sample_range(-5, 5), sample_magnitudes(-60, 60)})
-        expect_within(
-            "script_atan(v.x)", inputs, [](double x, double) { return std::atan(x); }, 3);
+        expect_within("script_atan(v.x)", inputs, [](double x, double) { return std::atan(x); }, 3);
 }
 
 TEST(ScriptMath, an_overshoot_is_forgiven_and_more_is_not) {
@@ -115,8 +109,7 @@ std::vector<glm::vec4> sample_pairs(double low, double high) {
 
 TEST(ScriptMath, arc_tangent_of_two_is_within_four_ulp) {
     for (const auto& inputs : {sample_pairs(-3, 3), sample_pairs(-60, 60)})
-        expect_within(
-            "script_atan2(v.x, v.y)", inputs, [](double y, double x) { return std::atan2(y, x); }, 4);
+        expect_within("script_atan2(v.x, v.y)", inputs, [](double y, double x) { return std::atan2(y, x); }, 4);
 }
 
 std::vector<glm::vec4> list_special_pairs() {
@@ -172,10 +165,8 @@ TEST(ScriptMath, special_numbers_are_as_in_the_reference) {
 
 TEST(ScriptMath, logarithm_and_exponential_are_within_two_ulp) {
     for (const auto& inputs : {sample_magnitudes(-140, 127.9), sample_range(0.5f, 2)})
-        expect_within(
-            "script_log(v.x)", inputs, [](double x, double) { return std::log(x); }, 2);
-    expect_within(
-        "script_exp(v.x)", sample_range(-90, 88), [](double x, double) { return std::exp(x); }, 2);
+        expect_within("script_log(v.x)", inputs, [](double x, double) { return std::log(x); }, 2);
+    expect_within("script_exp(v.x)", sample_range(-90, 88), [](double x, double) { return std::exp(x); }, 2);
 }
 
 TEST(ScriptMath, powers_are_within_three_ulp) {

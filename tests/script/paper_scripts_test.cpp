@@ -3,8 +3,6 @@
 // a path [SJL15], clusters, histograms, the brightest photon, axes of all photons.
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <numbers>
@@ -196,13 +194,10 @@ TEST(PaperScripts, components_of_paths_are_those_of_section_5_3) {
     expect_components(COMPONENT);
 }
 
-TEST(PaperScripts, listings_give_the_same) {
-    const char* const named = std::getenv("PHOTONLOUPE_LISTINGS");
-    const std::string folder = named ? named : PHOTONLOUPE_SOURCE_DIR "/../shared/listings";
-    if (!std::filesystem::is_directory(folder))
-        GTEST_SKIP() << folder << " is not there";
-    expect_tortuosity(read_file(folder + "/algorithm1.photon"));
-    expect_components(read_file(folder + "/algorithm2.photon"));
+TEST(PaperScripts, written_as_the_paper_writes_they_give_the_same) {
+    const std::string folder = PHOTONLOUPE_SOURCE_DIR "/tests/script/paper/";
+    expect_tortuosity(read_file(folder + "tortuosity.photon"));
+    expect_components(read_file(folder + "components.photon"));
 }
 
 } // namespace

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The parallel rules: loops just inside each, which become passes, and just outside, which run serially and say why.
-#include "script/plan.h"
+#include "script/plan/plan.h"
 
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "script/check_script.h"
+#include "script/check/check_script.h"
 
 namespace photonloupe::script {
 namespace {

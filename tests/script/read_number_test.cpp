@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Numbers as scripts write them.
-#include "script/read_number.h"
+#include "script/read/read_number.h"
 
 #include <limits>
 #include <string>

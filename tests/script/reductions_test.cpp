@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How values over photons are combined: identities, NaN, zeros, ties, wrapping; moments against double precision.
-#include "script/reductions.h"
+#include "script/interpret/reductions.h"
 
 #include <cmath>
 #include <limits>

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "script/compile_script.h"
-#include "script/pass_runner.h"
+#include "script/run/pass_runner.h"
 #include "support/shared_device.h"
 
 namespace photonloupe::script::tests {

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "script/check_script.h"
+#include "script/check/check_script.h"
 #include "script/compile_script.h"
 
 namespace photonloupe::test {

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "script/diagnostics.h"
 #include "script/program.h"
+#include "script/read/diagnostics.h"
 
 namespace photonloupe::test {
 
-std::vector<std::filesystem::path> list_scripts(const std::string& folder); // "accept" or "reject", sorted
+std::vector<std::filesystem::path> list_scripts(const std::string& folder); // of tests/script, sorted
 script::Source read_script(const std::filesystem::path& path);
 
 // A line "//!    ^^^^ E004 unknown function …" below the line it is about: the marks stand under the span, the message

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every script to accept is accepted; every script to reject is, with exactly the complaints written in it.
-#include <cstdlib>
 #include <set>
 
 #include <gtest/gtest.h>
 
 #include "script/compile_script.h"
-#include "script/diagnostic_codes.h"
+#include "script/read/diagnostic_codes.h"
 #include "script/script_files.h"
 
 namespace photonloupe::test {
@@ -52,19 +51,13 @@ TEST(ScriptFiles, every_code_has_a_script_that_is_rejected_for_it) {
     }
 }
 
-// The paper's listings are not part of this repository.
-TEST(ScriptFiles, listings_of_the_paper_are_accepted) {
-    const char* const named = std::getenv("PHOTONLOUPE_LISTINGS");
-    const std::filesystem::path folder = named ? named : PHOTONLOUPE_SOURCE_DIR "/../shared/listings";
-    if (!std::filesystem::is_directory(folder))
-        GTEST_SKIP() << folder << " is not there";
-    for (const char* const name : {"algorithm1.photon", "algorithm2.photon"}) {
-        const Source source = read_script(folder / name);
-        ASSERT_FALSE(source.text.empty()) << name;
+TEST(ScriptFiles, what_the_paper_writes_is_accepted) {
+    for (const auto& path : list_scripts("paper")) {
+        const Source source = read_script(path);
         const auto compiled = script::compile_script(source);
         EXPECT_EQ(script::format_diagnostics(source, compiled->diagnostics), "");
-        ASSERT_EQ(compiled->plan.loops.size(), 1u);
-        EXPECT_TRUE(compiled->plan.loops[0].is_parallel);
+        ASSERT_EQ(compiled->plan.loops.size(), 1u) << path;
+        EXPECT_TRUE(compiled->plan.loops[0].is_parallel) << path;
     }
 }
 

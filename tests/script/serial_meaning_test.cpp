@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "script/check_script.h"
+#include "script/check/check_script.h"
 #include "script/interpret.h"
-#include "script/interpreter.h"
+#include "script/interpret/interpreter.h"
 #include "script/random_script.h"
 
 namespace photonloupe::script::tests {
