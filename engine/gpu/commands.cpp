@@ -120,7 +120,7 @@ VkDescriptorSet Commands::Impl::write_set(const Kernel& kernel, const std::vecto
             write.descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
             write.pTexelBufferView = &views[index];
         } else {
-            infos[index] = {buffer.buffer, 0, VK_WHOLE_SIZE};
+            infos[index] = {buffer.buffer, 0, buffer.capacity_bytes};
             write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
             write.pBufferInfo = &infos[index];
         }
@@ -229,7 +229,7 @@ void Commands::copy(const Buffer::Impl& source, std::uint64_t source_offset, con
 }
 
 void Commands::fill(const Buffer& target, std::uint32_t value) {
-    m_impl->gpu().table.vkCmdFillBuffer(m_impl->commands, target.impl().buffer, 0, VK_WHOLE_SIZE, value);
+    m_impl->gpu().table.vkCmdFillBuffer(m_impl->commands, target.impl().buffer, 0, target.impl().capacity_bytes, value);
     m_impl->add_barrier();
 }
 
