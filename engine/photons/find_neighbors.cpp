@@ -11,7 +11,7 @@ constexpr const char* STAGE = "find neighbors";
 constexpr std::uint32_t SORT_GROUP = 64;
 constexpr std::uint32_t SORT_RUN = 32;            // sorted at once in registers
 constexpr std::uint32_t LARGEST_WAYS = 8;         // runs merged at a time
-constexpr std::uint64_t LIST_BYTES = 64ull << 20;   // of the lists under way together
+constexpr std::uint64_t LIST_BYTES = 64ull << 20; // of the lists under way together
 constexpr std::uint64_t PAIR_BYTES = sizeof(glm::uvec2);
 
 std::vector<std::string> list_sort_defines(std::uint32_t k) {
@@ -19,6 +19,10 @@ std::vector<std::string> list_sort_defines(std::uint32_t k) {
     return {"RUN " + std::to_string(SORT_RUN) + "u", write_sort_network(SORT_RUN),
             write_each("EACH_OF_RUN", 0, SORT_RUN, "u"), "WAYS " + std::to_string(ways) + "u",
             write_each("EACH_WAY", 0, ways)};
+}
+
+gpu::KernelSource name_sort_kernel(std::uint32_t k) {
+    return {"photons/sort_neighbors.comp", SORT_GROUP, list_sort_defines(k), {}};
 }
 
 } // namespace
@@ -40,6 +44,9 @@ Neighbors find_neighbors(gpu::Device& device, Neighborhood neighborhood, const N
     const gpu::Buffer radii(device, count * RADIUS_BYTES, "radii of queries");
     RadiusSettings radius{k + 1}; // those before the next one
     radius.cuts_ties = radius.leaves_self_out = true;
+    GatherKernel list{"photons/list_neighbors.comp", {"CUT_TIES", "BY_ID", "WITHOUT_SELF"}, {}};
+    device.compile_ahead({name_radius_kernel(neighborhood, asked, radius),
+                          name_gather_kernel(neighborhood, asked, list), name_sort_kernel(k)});
     find_radii(device, neighborhood, asked, radius, radii, STAGE, progress);
 
     Neighbors neighbors{gpu::Buffer(device, count * k * sizeof(float), "neighbor ids"),
@@ -47,9 +54,10 @@ Neighbors find_neighbors(gpu::Device& device, Neighborhood neighborhood, const N
     const std::uint64_t part = std::min(count, std::max<std::uint64_t>(LIST_BYTES / (2 * k * PAIR_BYTES), 1));
     const gpu::Buffer found(device, 2 * part * k * PAIR_BYTES, "neighbor lists");
     const gpu::Buffer found_counts(device, part * sizeof(std::uint32_t), "neighbor lists");
-    const GatherKernel list{"photons/list_neighbors.comp",
-                            {"CUT_TIES", "BY_ID", "WITHOUT_SELF"},
-                            {{"radii", radii}, {"found_neighbors", found}, {"found_counts", found_counts}}};
+    for (const gpu::Binding& binding :
+         {gpu::Binding{"radii", radii}, {"found_neighbors", found}, {"found_counts", found_counts}})
+        list.bindings.push_back(binding);
+    const gpu::KernelSource sorting = name_sort_kernel(k);
     for (std::uint64_t first = 0; first < count; first += part) {
         const std::uint64_t rows = std::min(part, count - first);
         const auto row_first = static_cast<std::uint32_t>(first);
@@ -58,16 +66,20 @@ Neighbors find_neighbors(gpu::Device& device, Neighborhood neighborhood, const N
         gpu::run_in_chunks(device, STAGE, rows, SORT_GROUP * 16, progress,
                            [&](gpu::Commands& commands, std::uint64_t begin, std::uint64_t size) {
                                const shared::SortSettings sort{static_cast<std::uint32_t>(first + begin),
-                                                               static_cast<std::uint32_t>(size), row_first, k,
-                                                               static_cast<std::uint32_t>(part * k), 0, 0, 0};
-                               commands.dispatch(
-                                   {"photons/sort_neighbors.comp", SORT_GROUP, list_sort_defines(k), {}},
-                                   {{"found_neighbors", found},
-                                    {"found_counts", found_counts},
-                                    {"result_rows", ordered.result_rows},
-                                    {"neighbor_ids", neighbors.ids},
-                                    {"neighbor_distances", neighbors.distances}},
-                                   sort, size);
+                                                               static_cast<std::uint32_t>(size),
+                                                               row_first,
+                                                               k,
+                                                               static_cast<std::uint32_t>(part * k),
+                                                               0,
+                                                               0,
+                                                               0};
+                               commands.dispatch(sorting,
+                                                 {{"found_neighbors", found},
+                                                  {"found_counts", found_counts},
+                                                  {"result_rows", ordered.result_rows},
+                                                  {"neighbor_ids", neighbors.ids},
+                                                  {"neighbor_distances", neighbors.distances}},
+                                                 sort, size);
                            });
     }
     return neighbors;
