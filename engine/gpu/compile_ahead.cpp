@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <cstring>
 
+#include <unistd.h>
+
 #include "core/error.h"
 #include "gpu/commands.h"
 #include "gpu/device_impl.h"
@@ -22,6 +24,8 @@ constexpr std::chrono::seconds LONGEST_WAIT{60};
 // Mesa writes a file in a few milliseconds once its thread gets its turn.
 constexpr std::chrono::milliseconds LONGEST_WRITE{100}, WRITE_POLL{2};
 constexpr std::uint64_t STAND_IN_BYTES = 1024;
+// The work at hand comes first; yet whoever waits for a kernel must get it soon on a busy machine too.
+constexpr int NICENESS = 5;
 
 bool is_switched_off() {
     const char* value = std::getenv("PHOTONLOUPE_COMPILE_AHEAD"); // 0: only where kernels are used
@@ -142,6 +146,7 @@ void CompileAhead::finish() {
 }
 
 void CompileAhead::work() {
+    [[maybe_unused]] const int niceness = nice(NICENESS); // of this thread and those its device starts
     std::unique_ptr<Device> rehearsal;
     std::unique_lock lock(m_mutex);
     for (;;) {
