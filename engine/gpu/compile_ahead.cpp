@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 
@@ -24,6 +25,8 @@ constexpr std::chrono::seconds LONGEST_WAIT{60};
 // Mesa writes a file in a few milliseconds once its thread gets its turn.
 constexpr std::chrono::milliseconds LONGEST_WRITE{100}, WRITE_POLL{2};
 constexpr std::uint64_t STAND_IN_BYTES = 1024;
+// A process that ends does not wait for the compiler.
+constexpr std::chrono::milliseconds LONGEST_FAREWELL{50};
 // The work at hand comes first; yet whoever waits for a kernel must get it soon on a busy machine too.
 constexpr int NICENESS = 5;
 
@@ -71,8 +74,21 @@ struct CompileAhead::Register {
 void CompileAhead::stop_all() {
     Register& there = Register::find();
     std::lock_guard lock(there.mutex);
-    for (CompileAhead* one : there.all)
-        one->stop();
+    bool is_abandoned = false;
+    for (CompileAhead* one : there.all) {
+        one->forget_waiting();
+        std::unique_lock lock_one(one->m_mutex);
+        one->m_is_abandoned =
+            !one->m_changed.wait_for(lock_one, LONGEST_FAREWELL, [&] { return one->m_running.empty(); });
+        is_abandoned |= one->m_is_abandoned;
+    }
+    if (is_abandoned) // the last to be registered is the first to run, before the globals go
+        on_exit(
+            [](int status, void*) {
+                std::fflush(nullptr);
+                _exit(status);
+            },
+            nullptr);
 }
 
 CompileAhead::CompileAhead(Device::Impl& device)
@@ -88,13 +104,15 @@ CompileAhead::~CompileAhead() {
     stop();
 }
 
-void CompileAhead::stop() {
-    {
-        std::lock_guard lock(m_mutex);
-        m_ends = true;
-        m_waiting.clear();
-    }
+void CompileAhead::forget_waiting() {
+    std::lock_guard lock(m_mutex);
+    m_ends = true;
+    m_waiting.clear();
     m_changed.notify_all();
+}
+
+void CompileAhead::stop() {
+    forget_waiting();
     for (std::thread& thread : m_threads)
         thread.join();
     m_threads.clear();

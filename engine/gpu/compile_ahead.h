@@ -34,9 +34,10 @@ public:
     void add(const std::vector<KernelSource>& sources);
     // Asked before a kernel is built for use: waits for a thread that is at it, or takes it from those that wait.
     void claim(const KernelSource& source);
-    // For a process that may end without closing its devices: from here on no thread compiles. The compiler's globals
-    // must not go while a thread is in it, and they go before those that were made earlier.
+    // For a process that is about to end: nothing more is begun. The compiler's globals must not go while a thread is
+    // in it; a kernel that takes longer is abandoned, and with it what would be done after exit().
     static void stop_all();
+    bool is_abandoned() const { return m_is_abandoned; }
     // Waits until nothing is left to do; for tests.
     void finish();
 
@@ -46,6 +47,7 @@ private:
         std::string key;
         KernelSource source;
     };
+    void forget_waiting();
     void stop();
     void work();
     void compile(const KernelSource& source, std::unique_ptr<Device>& rehearsal);
@@ -59,6 +61,7 @@ private:
     std::set<std::string> m_running, m_known;
     std::vector<std::thread> m_threads;
     bool m_ends = false, m_is_registered = false;
+    bool m_is_abandoned = false; // a thread still needs the device: neither is destroyed
 };
 
 } // namespace photonloupe::gpu

@@ -327,7 +327,10 @@ Device::Device(const std::string& selector) : m_impl(std::make_unique<Impl>()) {
     m_impl->ahead = std::make_unique<CompileAhead>(*m_impl);
 }
 
-Device::~Device() = default;
+Device::~Device() {
+    if (m_impl->ahead && m_impl->ahead->is_abandoned())
+        static_cast<void>(m_impl.release());
+}
 
 Device::Impl::~Impl() {
     ahead.reset(); // its threads use all that follows
