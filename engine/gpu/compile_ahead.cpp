@@ -31,8 +31,8 @@ constexpr std::chrono::milliseconds LONGEST_FAREWELL{50};
 constexpr int NICENESS = 5;
 
 bool is_switched_off() {
-    const char* value = std::getenv("PHOTONLOUPE_COMPILE_AHEAD"); // 0: only where kernels are used
-    return value && std::strcmp(value, "0") == 0;
+    const char* value = std::getenv("PHOTONLOUPE_COMPILE_AHEAD"); // 0: only where kernels are used, as on one core
+    return std::thread::hardware_concurrency() == 1 || (value && std::strcmp(value, "0") == 0);
 }
 
 unsigned choose_thread_count() {
