@@ -2,6 +2,7 @@
 // Binds engine/gpu: devices, their self-test and timings.
 #include "binding.h"
 
+#include "gpu/compile_ahead.h"
 #include "gpu/self_test.h"
 
 namespace photonloupe::bindings {
@@ -67,6 +68,8 @@ void bind_device(nb::module_& module) {
                  return row;
              })
         .def("timings", &list_timings);
+    // Before the interpreter goes, as it may leave devices behind.
+    nb::module_::import_("atexit").attr("register")(nb::cpp_function([] { gpu::CompileAhead::stop_all(); }));
 }
 
 } // namespace photonloupe::bindings

@@ -3,9 +3,11 @@
 #include "pipeline.h"
 
 #include "estimate/camera_frame.h"
+#include "estimate/plot_photons.h"
 #include "inspect/photon_colors.h"
 #include "inspect/voronoi.h"
 #include "photons/map_columns.h"
+#include "photons/tree_kernels.h"
 
 namespace photonloupe {
 namespace {
@@ -33,6 +35,11 @@ void set_script_parameters(gpu::Device& device, Photons& photons, std::span<cons
     photons.map.parameters = make_parameters(device, values, std::move(axes));
 }
 
+// Compiles what a tree of so many photons needs.
+void expect_tree(gpu::Device& device, std::uint64_t photon_count) {
+    device.compile_ahead(TreeKernels(0, device.limits().subgroup_size).list(photon_count));
+}
+
 } // namespace
 
 std::shared_ptr<const SceneBuffers> Workbench::find_buffers(const Scene& scene) {
@@ -51,6 +58,11 @@ std::shared_ptr<Photons> Workbench::trace_photons(const Scene& scene, const Trac
     if (key == m_traced_key)
         if (std::shared_ptr<Photons> traced = m_traced.lock())
             return traced;
+    // Most maps are looked at next; the kernels of the usual settings serve most others too. What is needed last is
+    // named first.
+    m_device.compile_ahead(list_render_kernels(scene, settings.store, {}));
+    expect_tree(m_device, settings.count);
+    m_device.compile_ahead({name_plot_kernel()});
     TracedPhotons traced = photonloupe::trace_photons(m_device, scene, *find_buffers(scene), settings, progress);
     auto photons = std::make_shared<Photons>();
     photons->map = std::move(traced.map);
@@ -158,8 +170,7 @@ const ParameterTree& Workbench::find_layered_tree(Photons& photons, const Progre
     const LayerReach suited = reach.value_or(LayerReach{});
     const float scale =
         choose_parameter_scale(m_device, find_parameter_tree(photons, progress), suited.k, suited.beta, progress);
-    photons.layered_tree =
-        build_layered_tree(m_device, photons.map, find_parameter_rows(photons), scale, progress);
+    photons.layered_tree = build_layered_tree(m_device, photons.map, find_parameter_rows(photons), scale, progress);
     photons.layered_for = suited;
     photons.layered_scale = scale;
     return *photons.layered_tree;
@@ -218,8 +229,7 @@ Relaxation Workbench::start_relaxation(Photons& photons, const Scene* scene, con
     const KdTree& tree = find_tree(photons, progress);
     const bool constrains = settings.constraint.descriptor != Descriptor::none;
     LayerTrees trees;
-    if (settings.repel == Space::parameter || (constrains && settings.constraint.space == Space::parameter))
-    {
+    if (settings.repel == Space::parameter || (constrains && settings.constraint.space == Space::parameter)) {
         const bool seeks_constraint = constrains && settings.constraint.space == Space::parameter;
         const LayerReach reach = seeks_constraint ? LayerReach{settings.constraint.neighbors, settings.constraint.beta}
                                                   : LayerReach{settings.neighbors, settings.beta};
@@ -266,7 +276,12 @@ Image Workbench::render(const Scene& scene, Photons* photons, const RenderSettin
         return render_image(m_device, scene, *find_buffers(scene), nullptr, settings, progress);
     if (settings.mode == RenderMode::voronoi)
         return render_voronoi(scene, *photons, settings, progress);
-    const RenderedMap map{photons->map, find_tree(*photons, progress), photons->store};
+    const bool needs_tree = settings.mode != RenderMode::photons;
+    m_device.compile_ahead(list_render_kernels(scene, photons->store, settings));
+    if (needs_tree && !photons->tree)
+        expect_tree(m_device, photons->map.count);
+    const KdTree none;
+    const RenderedMap map{photons->map, needs_tree ? find_tree(*photons, progress) : none, photons->store};
     return render_image(m_device, scene, *find_buffers(scene), &map, settings, progress);
 }
 

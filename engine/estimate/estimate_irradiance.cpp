@@ -9,6 +9,28 @@ namespace {
 
 constexpr const char* STAGE = "estimate irradiance";
 
+Neighborhood look_at_surfaces(const KdTree& tree, const EstimateSettings& settings, bool has_one_normal) {
+    Neighborhood neighborhood{tree, Measure::surface};
+    neighborhood.flatness = settings.flatness;
+    neighborhood.has_one_normal = has_one_normal;
+    return neighborhood;
+}
+
+// The photon behind the k-th gives the radius; of the disc the k-th itself.
+RadiusSettings choose_radius(const EstimateSettings& settings) {
+    const bool is_disc = settings.kernel == DensityKernel::disc;
+    RadiusSettings radius{is_disc ? settings.k : settings.k + 1};
+    radius.cuts_ties = true;
+    radius.includes_last = is_disc;
+    return radius;
+}
+
+GatherKernel name_estimate(const EstimateSettings& settings) {
+    return {"estimate/estimate_irradiance.comp",
+            {"CUT_TIES", "BY_ID", "KERNEL " + std::to_string(static_cast<std::uint32_t>(settings.kernel))},
+            {}};
+}
+
 // What both ways of asking share.
 struct Estimate {
     gpu::Device& device;
@@ -17,49 +39,39 @@ struct Estimate {
     const EstimateSettings& settings;
     const gpu::Buffer& irradiance;
     const Progress& progress;
-    bool has_one_normal = find_one_normal(tree);
+    Neighborhood neighborhood = look_at_surfaces(tree, settings, find_one_normal(tree));
 
-    Neighborhood look() const {
-        Neighborhood neighborhood{tree, Measure::surface};
-        neighborhood.flatness = settings.flatness;
-        neighborhood.has_one_normal = has_one_normal;
-        return neighborhood;
-    }
-    // The photon behind the k-th gives the radius; of the disc the k-th itself.
-    RadiusSettings choose_radius() const {
-        const bool is_disc = settings.kernel == DensityKernel::disc;
-        RadiusSettings radius{is_disc ? settings.k : settings.k + 1};
-        radius.cuts_ties = true;
-        radius.includes_last = is_disc;
-        return radius;
-    }
-    GatherKernel name_kernel(const gpu::Buffer& radii, const gpu::Buffer& result_rows) const {
-        return {"estimate/estimate_irradiance.comp",
-                {"CUT_TIES", "BY_ID", "KERNEL " + std::to_string(static_cast<std::uint32_t>(settings.kernel))},
-                {{"radii", radii}, {"power_object", power}, {"result_rows", result_rows}, {"irradiance", irradiance}}};
+    GatherKernel bind_kernel(const gpu::Buffer& radii, const gpu::Buffer& result_rows) const {
+        GatherKernel kernel = name_estimate(settings);
+        for (const gpu::Binding& binding : {gpu::Binding{"radii", radii},
+                                            {"power_object", power},
+                                            {"result_rows", result_rows},
+                                            {"irradiance", irradiance}})
+            kernel.bindings.push_back(binding);
+        return kernel;
     }
 
     // Every point by itself.
     void run(const PointSet& points, const gpu::Buffer& result_rows) const {
         const Queries queries{points.count, &points.points, &points.normals};
         const gpu::Buffer radii(device, points.count * RADIUS_BYTES, "radii of estimates");
-        const RadiusSettings radius = choose_radius();
-        find_radii(device, look(), queries, radius, radii, STAGE, progress);
-        gather(device, look(), queries, name_kernel(radii, result_rows), make_gather_settings(look(), radius.rank), STAGE,
-               progress);
+        const RadiusSettings radius = choose_radius(settings);
+        find_radii(device, neighborhood, queries, radius, radii, STAGE, progress);
+        gather(device, neighborhood, queries, bind_kernel(radii, result_rows), make_gather_settings(neighborhood, radius.rank),
+               STAGE, progress);
     }
 
     // Points that stand together share a radius where they may; returns those that may not.
     std::vector<std::uint32_t> run_shared(const PointSet& points, const gpu::Buffer& result_rows) const {
         const std::uint64_t leaders = points.count / points.group;
         const gpu::Buffer radii(device, leaders * RADIUS_BYTES, "radii of estimates");
-        RadiusSettings radius = choose_radius();
+        RadiusSettings radius = choose_radius(settings);
         radius.stride = points.group;
-        find_radii(device, look(), {leaders, &points.points, &points.normals}, radius, radii, STAGE, progress);
-        shared::GatherSettings push = make_gather_settings(look(), radius.rank);
+        find_radii(device, neighborhood, {leaders, &points.points, &points.normals}, radius, radii, STAGE, progress);
+        shared::GatherSettings push = make_gather_settings(neighborhood, radius.rank);
         push.stride = points.group;
-        return gather_once(device, look(), {points.count, &points.points, &points.normals},
-                           name_kernel(radii, result_rows), std::as_bytes(std::span(&push, 1)), STAGE, progress);
+        return gather_once(device, neighborhood, {points.count, &points.points, &points.normals},
+                           bind_kernel(radii, result_rows), std::as_bytes(std::span(&push, 1)), STAGE, progress);
     }
 };
 
@@ -74,10 +86,20 @@ gpu::Buffer take_rows(gpu::Device& device, const gpu::Buffer& buffer, std::uint6
 
 } // namespace
 
+std::vector<gpu::KernelSource> list_estimate_kernels(const EstimateSettings& settings, bool has_one_normal) {
+    const KdTree tree;
+    const gpu::Buffer points;
+    const Neighborhood neighborhood = look_at_surfaces(tree, settings, has_one_normal);
+    const Queries queries{0, &points, &points};
+    return {name_radius_kernel(neighborhood, queries, choose_radius(settings)),
+            name_gather_kernel(neighborhood, queries, name_estimate(settings))};
+}
+
 gpu::Buffer estimate_irradiance(gpu::Device& device, const gpu::Buffer& power, const KdTree& tree,
                                 const PointSet& points, const gpu::Buffer& result_rows,
                                 const EstimateSettings& settings, const Progress& progress) {
     require_k(settings.k);
+    device.compile_ahead(list_estimate_kernels(settings, find_one_normal(tree)));
     gpu::Buffer irradiance(device, points.count * sizeof(glm::vec4), "irradiance");
     if (tree.count == 0) {
         gpu::Commands commands(device, STAGE);

@@ -32,6 +32,9 @@ struct PointSet {
     std::uint32_t group = 1;
 };
 
+// What estimates of any points from any map dispatch.
+std::vector<gpu::KernelSource> list_estimate_kernels(const EstimateSettings& settings, bool has_one_normal);
+
 // W/m² at each point from photons with the flux `power` (rgb, by id); w: what photons that each carry 1 W would give.
 // Point i's goes to row result_rows[i].
 gpu::Buffer estimate_irradiance(gpu::Device& device, const gpu::Buffer& power, const KdTree& tree,

@@ -19,6 +19,10 @@ double find_mean_flux(const PhotonMap& photons) {
 
 } // namespace
 
+gpu::KernelSource name_plot_kernel() {
+    return {"estimate/plot_photons.comp", 64, {}, {}};
+}
+
 Image plot_photons(gpu::Device& device, const SceneBuffers& buffers, const PhotonMap& photons,
                    const shared::CameraFrame& camera, std::uint32_t width, std::uint32_t height,
                    const Progress& progress) {
@@ -33,7 +37,7 @@ Image plot_photons(gpu::Device& device, const SceneBuffers& buffers, const Photo
                        [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
                            push.first = static_cast<std::uint32_t>(first);
                            push.count = static_cast<std::uint32_t>(count);
-                           commands.dispatch({"estimate/plot_photons.comp", 64, {}, {}},
+                           commands.dispatch(name_plot_kernel(),
                                              {{"geometry", buffers.geometry},
                                               {"position_emitter", photons.position_emitter},
                                               {"power_object", photons.power_object},

@@ -7,6 +7,8 @@
 
 namespace photonloupe {
 
+gpu::KernelSource name_plot_kernel();
+
 // Each visible photon adds its flux, in units of the mean photon's largest channel, to its pixel.
 Image plot_photons(gpu::Device& device, const SceneBuffers& buffers, const PhotonMap& photons,
                    const shared::CameraFrame& camera, std::uint32_t width, std::uint32_t height,

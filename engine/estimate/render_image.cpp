@@ -3,7 +3,9 @@
 #include "estimate/render_image.h"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
+#include <optional>
 
 #include "estimate/camera_frame.h"
 #include "estimate/plot_photons.h"
@@ -18,6 +20,33 @@ constexpr std::uint32_t LARGEST_SAMPLE_COUNT = 4096;
 // Slots of one chunk: a software device follows their rays in a tenth of a second, which Ctrl-C waits for.
 constexpr std::uint64_t CHUNK_SLOTS = 1ull << 17;
 
+gpu::KernelSource name_eye_kernel(const Scene& scene) {
+    return {"estimate/trace_eye.comp", 64, list_scene_defines(scene), {}};
+}
+
+gpu::KernelSource name_light_kernel() {
+    return {"estimate/light_direct.comp", 64, {}, {}};
+}
+
+gpu::KernelSource name_color_kernel() {
+    return {"estimate/color_irradiance.comp", 64, {}, {}};
+}
+
+gpu::KernelSource name_film_kernel() {
+    return {"estimate/accumulate_film.comp", 64, {}, {}};
+}
+
+// Which parts of light an image is made of.
+struct Parts {
+    bool emission, map, colors, direct;
+};
+
+Parts choose_parts(RenderMode mode, Store store) {
+    const bool is_composite = mode == RenderMode::composite, is_colored = mode == RenderMode::false_color;
+    return {mode != RenderMode::caustic && !is_colored, mode == RenderMode::caustic || is_composite || is_colored,
+            is_colored, mode == RenderMode::direct || (is_composite && store != Store::all)};
+}
+
 struct FilmScratch {
     gpu::Buffer hit_point;
     gpu::Buffer hit_normal;
@@ -31,9 +60,10 @@ FilmScratch allocate_scratch(gpu::Device& device, std::uint64_t samples, std::ui
     const std::uint64_t bytes = samples * slots * sizeof(glm::vec4);
     std::vector<std::uint32_t> numbers(samples * slots);
     std::iota(numbers.begin(), numbers.end(), 0u);
-    return {gpu::Buffer(device, bytes, "eye hits"), gpu::Buffer(device, bytes, "eye hits"),
-            gpu::Buffer(device, bytes, "eye hits"), gpu::Buffer(device, samples * sizeof(glm::vec4), "eye emission"),
-            gpu::Buffer(device, bytes, "direct light"), gpu::make_buffer(device, numbers, "eye hits")};
+    return {
+        gpu::Buffer(device, bytes, "eye hits"),     gpu::Buffer(device, bytes, "eye hits"),
+        gpu::Buffer(device, bytes, "eye hits"),     gpu::Buffer(device, samples * sizeof(glm::vec4), "eye emission"),
+        gpu::Buffer(device, bytes, "direct light"), gpu::make_buffer(device, numbers, "eye hits")};
 }
 
 struct Renderer {
@@ -57,7 +87,7 @@ struct Renderer {
 
 void Renderer::trace_eye(const FilmScratch& scratch) {
     gpu::Commands commands(device, "trace eye paths");
-    commands.dispatch({"estimate/trace_eye.comp", 64, list_scene_defines(scene), {}},
+    commands.dispatch(name_eye_kernel(scene),
                       {{"geometry", buffers.geometry},
                        {"shading_normals", buffers.normals},
                        {"materials", buffers.materials},
@@ -71,7 +101,7 @@ void Renderer::trace_eye(const FilmScratch& scratch) {
 
 void Renderer::light_direct(const FilmScratch& scratch) {
     gpu::Commands commands(device, "light directly");
-    commands.dispatch({"estimate/light_direct.comp", 64, {}, {}},
+    commands.dispatch(name_light_kernel(),
                       {{"geometry", buffers.geometry},
                        {"lights", buffers.lights},
                        {"hit_point", scratch.hit_point},
@@ -91,15 +121,14 @@ gpu::Buffer Renderer::gather(const FilmScratch& scratch, const gpu::Buffer& powe
 void Renderer::color(const FilmScratch& scratch, const gpu::Buffer& irradiance, const Progress& progress) {
     const gpu::Buffer sums = gather(scratch, *map->photons.colors, progress);
     gpu::Commands commands(device, "color irradiance");
-    commands.dispatch({"estimate/color_irradiance.comp", 64, {}, {}},
-                      {{"color_sums", sums}, {"irradiance", irradiance}}, film_push,
+    commands.dispatch(name_color_kernel(), {{"color_sums", sums}, {"irradiance", irradiance}}, film_push,
                       std::uint64_t{film_push.sample_count} * film_push.slot_count);
     commands.run();
 }
 
 void Renderer::accumulate(const FilmScratch& scratch, const gpu::Buffer& irradiance) {
     gpu::Commands commands(device, "accumulate film");
-    commands.dispatch({"estimate/accumulate_film.comp", 64, {}, {}},
+    commands.dispatch(name_film_kernel(),
                       {{"hit_weight", scratch.hit_weight},
                        {"direct_irradiance", scratch.direct_irradiance},
                        {"map_irradiance", irradiance},
@@ -163,7 +192,41 @@ void require_settings(const RenderSettings& settings, const RenderedMap* map) {
         throw Error("render: the photons have no colors; run a script that calls setPhotonColourEncoding first");
 }
 
+// Whether all that photons may lie on faces one way.
+bool expects_one_normal(const Scene& scene) {
+    std::optional<glm::vec3> first;
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+        const shared::Material& material = scene.materials[std::bit_cast<std::uint32_t>(scene.triangles[i].v1_material.w)];
+        if (material.base_color_metallic.w >= 1.0f || material.emission_transmission.w >= 1.0f)
+            continue; // nothing diffuse
+        for (const glm::vec4& normal : {scene.normals[i].n0, scene.normals[i].n1, scene.normals[i].n2}) {
+            if (first && *first != glm::vec3(normal))
+                return false;
+            first = glm::vec3(normal);
+        }
+    }
+    return true;
+}
+
 } // namespace
+
+std::vector<gpu::KernelSource> list_render_kernels(const Scene& scene, Store store, const RenderSettings& settings) {
+    if (settings.mode == RenderMode::photons)
+        return {name_plot_kernel()};
+    if (settings.mode == RenderMode::voronoi)
+        return {};
+    const Parts parts = choose_parts(settings.mode, store);
+    std::vector<gpu::KernelSource> kernels{name_eye_kernel(scene)};
+    if (parts.direct)
+        kernels.push_back(name_light_kernel());
+    if (parts.map)
+        for (gpu::KernelSource& kernel : list_estimate_kernels(settings.estimate, expects_one_normal(scene)))
+            kernels.push_back(std::move(kernel));
+    if (parts.colors)
+        kernels.push_back(name_color_kernel());
+    kernels.push_back(name_film_kernel());
+    return kernels;
+}
 
 Image render_image(gpu::Device& device, const Scene& scene, const SceneBuffers& buffers, const RenderedMap* map,
                    const RenderSettings& settings, const Progress& progress) {
@@ -173,7 +236,6 @@ Image render_image(gpu::Device& device, const Scene& scene, const SceneBuffers& 
     if (settings.mode == RenderMode::photons)
         return plot_photons(device, buffers, map->photons, camera, settings.width, settings.height, progress);
     Renderer renderer{device, scene, buffers, map, settings};
-    const bool is_composite = settings.mode == RenderMode::composite;
     const bool has_glass = scene.report.has_dielectric || scene.report.has_thin;
     renderer.eye.camera = camera;
     renderer.eye.width = settings.width;
@@ -183,11 +245,12 @@ Image render_image(gpu::Device& device, const Scene& scene, const SceneBuffers& 
     renderer.eye.max_bounces = settings.max_bounces;
     renderer.eye.slot_count = renderer.film_push.slot_count = has_glass ? DIELECTRIC_SLOTS : 1;
     renderer.film_push.light_count = static_cast<std::uint32_t>(scene.lights.size());
-    const bool is_colored = settings.mode == RenderMode::false_color;
-    renderer.film_push.uses_emission = settings.mode != RenderMode::caustic && !is_colored;
-    renderer.film_push.uses_map = settings.mode == RenderMode::caustic || is_composite || is_colored;
-    renderer.film_push.uses_colors = is_colored;
-    renderer.film_push.uses_direct = settings.mode == RenderMode::direct || (is_composite && map->store != Store::all);
+    device.compile_ahead(list_render_kernels(scene, map ? map->store : Store::caustic, settings));
+    const Parts parts = choose_parts(settings.mode, map ? map->store : Store::caustic);
+    renderer.film_push.uses_emission = parts.emission;
+    renderer.film_push.uses_map = parts.map;
+    renderer.film_push.uses_colors = parts.colors;
+    renderer.film_push.uses_direct = parts.direct;
     return renderer.run(progress);
 }
 

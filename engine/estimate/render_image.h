@@ -37,6 +37,9 @@ struct RenderedMap {
     Store store = Store::caustic;
 };
 
+// What a picture of that scene and a map stored so dispatches.
+std::vector<gpu::KernelSource> list_render_kernels(const Scene& scene, Store store, const RenderSettings& settings);
+
 // `map` may be null for the mode `direct`. Throws Error for an image size or sample count out of range.
 Image render_image(gpu::Device& device, const Scene& scene, const SceneBuffers& buffers, const RenderedMap* map,
                    const RenderSettings& settings, const Progress& progress = {});

@@ -3,6 +3,7 @@
 #include "gpu/buffer.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 #include "core/error.h"
@@ -15,9 +16,20 @@ namespace {
 // Staging copies move in pieces of this size, so that a download needs no second copy of a large map.
 constexpr std::uint64_t STAGING_BYTES = 64ull << 20;
 constexpr std::uint64_t SMALLEST_BUFFER_BYTES = 16;
+constexpr std::uint64_t TEXEL_BYTES = 16;      // RGBA32F
+constexpr std::uint64_t TEXEL_PAD_BYTES = 256; // see pad_texels()
 
 std::string describe_mebibytes(std::uint64_t bytes) {
     return std::to_string((bytes + (1u << 20) - 1) >> 20) + " MiB";
+}
+
+// Mesa 22.3's software device takes a buffer's size for an image's: a kernel that reads texels is compiled anew, and
+// for each such buffer by itself, where the size is a power of two or its second byte is 0. So no buffer there has such
+// a size: every kernel has one machine code.
+std::uint64_t pad_texels(std::uint64_t bytes) {
+    while (std::has_single_bit(bytes) || (bytes / TEXEL_PAD_BYTES) % 256 == 0)
+        bytes += TEXEL_PAD_BYTES;
+    return bytes;
 }
 
 } // namespace
@@ -27,11 +39,16 @@ Buffer::Impl::Impl(Device& opened, std::uint64_t size, std::uint32_t memory_type
     Device::Impl& owner = opened.impl();
     owner.require_alive();
     VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
-    info.size = (capacity_bytes + 15) / 16 * 16;
+    capacity_bytes = (capacity_bytes + TEXEL_BYTES - 1) / TEXEL_BYTES * TEXEL_BYTES;
+    const bool is_validated = !owner.instance->validation_mode().empty(); // the layers must see where buffers end
+    const bool pads = owner.info.type == "software" && !is_validated;
+    texel_bytes = pads ? pad_texels(capacity_bytes) : capacity_bytes;
+    if (texel_bytes / TEXEL_BYTES > owner.limits.max_texel_count)
+        texel_bytes = capacity_bytes;
+    info.size = texel_bytes;
     info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                  VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
                  VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
-    capacity_bytes = info.size;
     const VolkDeviceTable& vk = owner.table;
     check(vk.vkCreateBuffer(owner.device, &info, nullptr, &buffer), purpose);
     VkMemoryRequirements needs;
@@ -50,6 +67,8 @@ Buffer::Impl::Impl(Device& opened, std::uint64_t size, std::uint32_t memory_type
     owner.allocated_bytes += capacity_bytes;
     if (owner.memory.memoryTypes[memory_type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT)
         check(vk.vkMapMemory(owner.device, memory, 0, VK_WHOLE_SIZE, 0, &mapped), "vkMapMemory");
+    if (mapped) // texels past the end read as 0, as they do where there is no padding
+        std::memset(static_cast<char*>(mapped) + capacity_bytes, 0, texel_bytes - capacity_bytes);
     VkBufferDeviceAddressInfo query{VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO};
     query.buffer = buffer;
     address = vk.vkGetBufferDeviceAddress(owner.device, &query);
@@ -71,7 +90,7 @@ VkBufferView Buffer::Impl::view_texels() {
     VkBufferViewCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
     info.buffer = buffer;
     info.format = VK_FORMAT_R32G32B32A32_SFLOAT;
-    info.range = capacity_bytes;
+    info.range = texel_bytes;
     check(device->impl().table.vkCreateBufferView(device->impl().device, &info, nullptr, &texels),
           "vkCreateBufferView");
     return texels;

@@ -14,7 +14,8 @@ struct Buffer::Impl {
     VkBufferView texels = VK_NULL_HANDLE; // made when a kernel first reads it as a texel buffer
     VkDeviceAddress address = 0;
     std::uint64_t size_bytes = 0;
-    std::uint64_t capacity_bytes = 0;
+    std::uint64_t capacity_bytes = 0; // the size in whole texels
+    std::uint64_t texel_bytes = 0;    // the same with padding: what a view of texels covers
     void* mapped = nullptr;
 
     Impl(Device& opened, std::uint64_t size, std::uint32_t memory_type, const char* purpose);

@@ -324,11 +324,16 @@ Device::Device(const std::string& selector) : m_impl(std::make_unique<Impl>()) {
     choose_memory_types(*m_impl);
     create_logical_device(*m_impl);
     m_impl->pipeline_cache = load_pipeline_cache(*m_impl);
+    m_impl->ahead = std::make_unique<CompileAhead>(*m_impl);
 }
 
-Device::~Device() = default;
+Device::~Device() {
+    if (m_impl->ahead && m_impl->ahead->is_abandoned())
+        static_cast<void>(m_impl.release());
+}
 
 Device::Impl::~Impl() {
+    ahead.reset(); // its threads use all that follows
     if (!device)
         return;
     // After a missed deadline the work may still be running: its objects must outlive it, so they are left to the

@@ -70,6 +70,9 @@ public:
 
     // The compiled kernel for a source, built at first request and kept.
     Kernel& find_kernel(const KernelSource& source);
+    // Compiles kernels in background threads, in this order, while earlier work runs; returns at once. One that is
+    // needed before is waited for or compiled where it is needed. What fails is reported by its first use.
+    void compile_ahead(const std::vector<KernelSource>& sources);
 
     void record_timing(const std::string& stage, double milliseconds, std::uint64_t dispatch_count);
     std::map<std::string, StageTiming> take_timings();

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <unordered_map>
 
+#include "gpu/compile_ahead.h"
 #include "gpu/device.h"
 #include "gpu/instance.h"
 #include "gpu/kernel.h"
@@ -35,7 +36,10 @@ struct Device::Impl {
     std::uint32_t memory_type_staging = 0;
     std::atomic<std::uint64_t> allocated_bytes = 0;
     double timestamp_nanoseconds = 0; // per tick; 0: the queue has no timestamps
-    std::unordered_map<std::string, std::unique_ptr<Kernel>> kernels;
+    std::mutex kernels_mutex;
+    std::unordered_map<std::string, std::unique_ptr<Kernel>> kernels; // by make_key()
+    std::unique_ptr<CompileAhead> ahead;
+    bool is_rehearsal = false; // opened to compile: what validation says is for the device that is used to report
     std::map<std::string, StageTiming> timings;
     std::atomic<double> chunk_milliseconds = CHUNK_MILLISECONDS;
     TurnMutex mutex; // one queue: work of several threads is taken in turn

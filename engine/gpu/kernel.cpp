@@ -3,7 +3,6 @@
 #include "gpu/kernel.h"
 
 #include "core/error.h"
-#include "core/hash.h"
 #include "gpu/compile_glsl.h"
 #include "gpu/device_impl.h"
 
@@ -14,17 +13,6 @@ namespace {
 constexpr std::uint32_t PUSH_CONSTANT_BYTES = 128;
 // Of the specialisation constant in shaders/shared/subgroup.glsl.
 constexpr std::uint32_t SUBGROUP_SIZE_ID = 63;
-
-std::string make_key(const KernelSource& source) {
-    std::string key = source.path + '|' + std::to_string(source.workgroup_size);
-    for (const std::string& define : source.defines)
-        key += '|' + define;
-    for (std::uint32_t constant : source.constants)
-        key += '#' + std::to_string(constant);
-    if (!source.text.empty())
-        key += '@' + hash_bytes(source.text);
-    return key;
-}
 
 VkDescriptorType find_descriptor_type(BindingKind kind) {
     return kind == BindingKind::texel ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
@@ -122,10 +110,21 @@ PipelineVariant& Kernel::find_variant(std::uint64_t by_address) {
 }
 
 Kernel& Device::find_kernel(const KernelSource& source) {
-    std::unique_ptr<Kernel>& kernel = m_impl->kernels[make_key(source)];
-    if (!kernel)
-        kernel = std::make_unique<Kernel>(*m_impl, source);
-    return *kernel;
+    const std::string key = make_key(source);
+    const auto find = [&]() -> Kernel* {
+        const auto found = m_impl->kernels.find(key);
+        return found == m_impl->kernels.end() ? nullptr : found->second.get();
+    };
+    {
+        std::lock_guard lock(m_impl->kernels_mutex);
+        if (Kernel* kernel = find())
+            return *kernel;
+    }
+    m_impl->ahead->claim(source);
+    std::lock_guard lock(m_impl->kernels_mutex);
+    if (Kernel* kernel = find()) // handed over by the thread that was waited for
+        return *kernel;
+    return *m_impl->kernels.emplace(key, std::make_unique<Kernel>(*m_impl, source)).first->second;
 }
 
 } // namespace photonloupe::gpu

@@ -11,6 +11,7 @@
 #include <dlfcn.h>
 
 #include "core/error.h"
+#include "core/hash.h"
 #include "gpu/compile_glsl.h"
 
 namespace photonloupe::gpu {
@@ -104,6 +105,17 @@ std::string declare_large(const BindingDeclaration& binding, std::size_t block, 
 }
 
 } // namespace
+
+std::string make_key(const KernelSource& source) {
+    std::string key = source.path + '|' + std::to_string(source.workgroup_size);
+    for (const std::string& define : source.defines)
+        key += '|' + define;
+    for (std::uint32_t constant : source.constants)
+        key += '#' + std::to_string(constant);
+    if (!source.text.empty())
+        key += '@' + hash_bytes(source.text);
+    return key;
+}
 
 std::vector<std::string> find_shader_folders() {
     if (const char* value = std::getenv("PHOTONLOUPE_SHADER_DIR"); value && *value) {

@@ -33,6 +33,9 @@ struct ExpandedSource {
     std::vector<BindingDeclaration> bindings;
 };
 
+// Tells sources apart, whatever their files hold.
+std::string make_key(const KernelSource& source);
+
 // Where kernels are looked for, in this order: the folders of PHOTONLOUPE_SHADER_DIR (separated by ':'), else
 // `shaders` beside the program.
 std::vector<std::string> find_shader_folders();

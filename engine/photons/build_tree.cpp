@@ -9,32 +9,17 @@
 #include <utility>
 
 #include "gpu/commands.h"
-#include "photons/kernel_macros.h"
 #include "photons/kd_tree.h"
+#include "photons/tree_kernels.h"
 
 namespace photonloupe {
 namespace {
 
 constexpr const char* STAGE = "build tree";
-// Nodes of more photons are split by several subgroups. One subgroup may pass over a node 26 times (split_nodes.comp)
-// and then has loop turns left (shaders/shared/turns.glsl).
-constexpr std::uint64_t LARGE_NODE_PHOTONS = 16384, LARGE_NODE_BLOCKS = 2048;
-// The largest nodes that an invocation sorts alone; with ranges fewer, as its long kernel takes the driver seconds to
-// compile, and there is one for each number of rows.
-constexpr std::uint32_t SMALL_NODE_PHOTONS = 128, SMALL_NODE_PHOTONS_WITH_RANGES = 64;
 // Copying a photon's columns costs as much as so many levels: they stand anywhere.
 constexpr double ORDER_WORK = 3;
 // Photons, levels counted, of the first batch; later ones follow the device's pace.
 constexpr double FIRST_BATCH = 1 << 19, SMALLEST_BATCH = 1 << 16, LARGEST_BATCH = 1 << 28;
-
-std::uint64_t count_tiles(std::uint64_t photon_count) {
-    return (photon_count + shared::TREE_TILE - 1) / shared::TREE_TILE;
-}
-
-// The most photons that a node of a level has.
-std::uint64_t find_largest_node(std::uint64_t photon_count, std::uint32_t level) {
-    return shared::TREE_TILE * ((count_tiles(photon_count) + (1ull << level) - 1) >> level);
-}
 
 // Collects dispatches and submits them in batches of about the device's chunk each.
 class Batches {
@@ -94,24 +79,23 @@ public:
         m_tree.leaf_level = find_leaf_level(photons.count);
         m_tree.range_rows = ranges ? ranges->count_rows() : 0;
         m_batches.emplace(device, progress, static_cast<double>(photons.count) * (m_tree.leaf_level + 1 + ORDER_WORK));
-        if (ranges)
-            m_defines.push_back("RANGE_ROWS " + std::to_string(m_tree.range_rows) + "u");
+        m_kernels.emplace(m_tree.range_rows, device.limits().subgroup_size);
         allocate();
     }
 
     KdTree build() {
         if (m_tree.count == 0)
             return std::move(m_tree);
+        m_device.compile_ahead(m_kernels->list(m_tree.count));
+        if (m_ranges)
+            m_device.compile_ahead({m_kernels->scale_axes(m_ranges->axis_count, m_axes)});
         number_photons();
-        for (std::uint32_t level = 0; level < m_tree.leaf_level; ++level) {
-            const std::uint64_t largest = find_largest_node(m_tree.count, level);
-            if (largest > std::min(LARGE_NODE_PHOTONS, LARGE_NODE_BLOCKS * m_device.limits().subgroup_size))
+        for (std::uint32_t level = 0; level < m_tree.leaf_level; ++level)
+            if (const std::uint64_t largest = find_largest_node(m_tree.count, level);
+                m_kernels->splits_in_parts(largest))
                 split_large_nodes(level);
-            else if (largest > (m_ranges ? SMALL_NODE_PHOTONS_WITH_RANGES : SMALL_NODE_PHOTONS))
-                split_nodes(level, {"photons/split_nodes.comp", 0, m_defines, {}}, m_device.limits().subgroup_size);
             else
-                split_nodes(level, name_small_kernel(static_cast<std::uint32_t>(largest)), 1);
-        }
+                split_nodes(level, m_kernels->split_nodes(largest));
         copy_columns();
         m_batches->finish();
         bound_tree(m_device, m_tree, STAGE, true);
@@ -156,15 +140,6 @@ private:
                 m_parameter_scale};
     }
 
-    gpu::KernelSource name_small_kernel(std::uint32_t largest_node) const {
-        const std::uint32_t size = std::max(32u, std::bit_ceil(largest_node));
-        gpu::KernelSource kernel{"photons/split_small_nodes.comp", 64, m_defines, {}};
-        kernel.defines.push_back("SORT_SIZE " + std::to_string(size));
-        kernel.defines.push_back(write_each("EACH_KEY", 0, size));
-        kernel.defines.push_back(write_sort_network(size));
-        return kernel;
-    }
-
     void number_photons() {
         m_batches->add(0).fill(m_box_keys, ~0u);
         m_batches->add(0).fill(m_emitters, ~0u);
@@ -175,7 +150,7 @@ private:
             } push{static_cast<std::uint32_t>(first),
                    static_cast<std::uint32_t>(std::min(largest, m_tree.count - first))};
             m_batches->add(push.count)
-                .dispatch({"photons/number_photons.comp", 0, {}, {}},
+                .dispatch(m_kernels->number_photons(),
                           {{"position_emitter", m_photons.position_emitter},
                            {"tree_positions", source(0)},
                            {"box_keys", m_box_keys},
@@ -188,17 +163,12 @@ private:
     }
 
     void read_boxes(std::uint32_t level) {
-        m_batches->add(0).dispatch({"photons/read_boxes.comp", 64, {}, {}},
-                                   {{"tree_nodes", m_tree.nodes}, {"box_keys", m_box_keys}},
+        m_batches->add(0).dispatch(m_kernels->read_boxes(), {{"tree_nodes", m_tree.nodes}, {"box_keys", m_box_keys}},
                                    make_push(level, 0, 1ull << level), 1ull << level);
     }
 
     void scale_axes() {
-        gpu::KernelSource kernel{"photons/scale_axes.comp", 0, m_defines, {}};
-        kernel.defines.push_back("RANGE_AXES " + std::to_string(m_ranges->axis_count) + "u");
-        if (m_axes == TreeAxes::both)
-            kernel.defines.emplace_back("SPLIT_POSITIONS");
-        m_batches->add(0).dispatch(kernel,
+        m_batches->add(0).dispatch(m_kernels->scale_axes(m_ranges->axis_count, m_axes),
                                    {{"source", source(0)},
                                     {"range_rows", rows()},
                                     {"scales", m_scales},
@@ -209,7 +179,8 @@ private:
                                    make_push(0, 0, 1), 1);
     }
 
-    void split_nodes(std::uint32_t level, const gpu::KernelSource& kernel, std::uint64_t invocations) {
+    void split_nodes(std::uint32_t level, const gpu::KernelSource& kernel) {
+        const std::uint64_t invocations = kernel.workgroup_size ? 1 : m_device.limits().subgroup_size; // a node
         const std::uint64_t nodes = 1ull << level;
         for (std::uint64_t first = 0; first < nodes;) {
             const std::uint64_t fitting = m_batches->fit(nodes, static_cast<double>(m_tree.count));
@@ -234,8 +205,8 @@ private:
             const std::uint64_t fitting = m_batches->fit(m_tree.count, ORDER_WORK * static_cast<double>(m_tree.count));
             const std::uint64_t count = std::min(
                 {fitting, m_tree.count - first, std::uint64_t{m_device.limits().max_group_count} * ORDER_GROUP});
-            order_columns(m_batches->add(ORDER_WORK * static_cast<double>(count)), m_photons, m_ranges, m_tree, m_emitters,
-                          first, count);
+            order_columns(m_batches->add(ORDER_WORK * static_cast<double>(count)), m_photons, m_ranges, m_tree,
+                          m_emitters, first, count);
             m_batches->run_if_full();
             first += count;
         }
@@ -255,8 +226,8 @@ private:
         const gpu::Buffer left_counts(m_device, nodes * push.parts * sizeof(std::uint32_t), "kd-tree counts");
         const gpu::Buffer unsettled(m_device, sizeof(std::uint32_t), "kd-tree counts");
         m_box_keys = gpu::Buffer(m_device, 2 * nodes * 6 * sizeof(std::uint32_t), "kd-tree boxes");
-        const auto dispatch = [&](const char* kernel, std::uint64_t groups) {
-            m_batches->add(0).dispatch({kernel, 0, m_defines, {}},
+        const auto dispatch = [&](const gpu::KernelSource& kernel, std::uint64_t groups) {
+            m_batches->add(0).dispatch(kernel,
                                        {{"source", source(level)},
                                         {"range_rows", rows()},
                                         {"scales", m_scales},
@@ -269,15 +240,17 @@ private:
                                         {"box_keys", m_box_keys}},
                                        push, groups * m_device.limits().subgroup_size);
         };
+        const std::vector<gpu::KernelSource> kernels = m_kernels->split_in_parts();
         do {
             gpu::Commands& commands = m_batches->add(static_cast<double>(m_tree.count));
             commands.fill(unsettled, 0);
             commands.fill(m_box_keys, ~0u);
-            dispatch("photons/choose_brackets.comp", nodes);
-            dispatch("photons/keep_between.comp", nodes * push.parts);
-            dispatch("photons/find_pivots.comp", nodes);
-            dispatch("photons/count_lefts.comp", nodes * push.parts);
-            dispatch("photons/move_parts.comp", nodes * push.parts);
+            const std::uint64_t parts = nodes * push.parts;
+            dispatch(kernels[0], nodes); // brackets
+            dispatch(kernels[1], parts);
+            dispatch(kernels[2], nodes); // pivots
+            dispatch(kernels[3], parts);
+            dispatch(kernels[4], parts);
             read_boxes(level + 1);
             m_batches->run();
             ++push.round;
@@ -290,7 +263,7 @@ private:
     TreeAxes m_axes;
     float m_parameter_scale;
     std::optional<Batches> m_batches;
-    std::vector<std::string> m_defines;
+    std::optional<TreeKernels> m_kernels;
     KdTree m_tree;
     gpu::Buffer m_scales, m_box_keys, m_emitters;
 };
@@ -314,7 +287,8 @@ KdTree build_tree(gpu::Device& device, const PhotonMap& photons, const Progress&
 
 KdTree build_tree(gpu::Device& device, const PhotonMap& photons, const RangeRows& ranges, TreeAxes axes,
                   float parameter_scale, const Progress& progress) {
-    return TreeBuilder(device, photons, axes == TreeAxes::positions ? nullptr : &ranges, axes, parameter_scale, progress)
+    return TreeBuilder(device, photons, axes == TreeAxes::positions ? nullptr : &ranges, axes, parameter_scale,
+                       progress)
         .build();
 }
 

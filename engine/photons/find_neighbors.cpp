@@ -11,8 +11,27 @@ constexpr const char* STAGE = "find neighbors";
 constexpr std::uint32_t SORT_GROUP = 64;
 // Sorted at once in registers. The kernel is the same for every k: somebody who tries one does not wait for a compiler.
 constexpr std::uint32_t RUN = 64;
-constexpr std::uint64_t LIST_BYTES = 64ull << 20;   // of the lists under way together
+constexpr std::uint64_t LIST_BYTES = 64ull << 20; // of the lists under way together
 constexpr std::uint64_t PAIR_BYTES = sizeof(glm::uvec2);
+
+// What puts lists of k in order: sorted runs, merged where there are several.
+std::vector<gpu::KernelSource> list_sort_kernels(std::uint32_t k) {
+    const std::uint32_t runs = (k + RUN - 1) / RUN;
+    const std::string size = "RUN " + std::to_string(RUN) + "u";
+    std::vector<gpu::KernelSource> kernels{{"photons/sort_neighbors.comp",
+                                            SORT_GROUP,
+                                            {size, write_sort_network(RUN), write_each("EACH_OF_RUN", 0, RUN, "u"),
+                                             write_each("EACH_PAIR_OF_RUN", 0, RUN / 2, "u")},
+                                            {}}};
+    if (runs == 1)
+        kernels[0].defines.emplace_back("IS_WHOLE");
+    else
+        kernels.push_back({"photons/merge_neighbors.comp",
+                           SORT_GROUP,
+                           {size, "RUNS " + std::to_string(runs), write_each("EACH_RUN", 0, runs)},
+                           {}});
+    return kernels;
+}
 
 // Lists of members, a part of the queries at a time, and where their answers go.
 struct Lists {
@@ -44,19 +63,10 @@ struct Lists {
 
     // Puts them in order.
     void sort(std::uint64_t first, std::uint64_t rows, const Progress& progress) const {
-        const std::uint32_t runs = (k + RUN - 1) / RUN;
-        const std::string size = "RUN " + std::to_string(RUN) + "u";
-        gpu::KernelSource sort{"photons/sort_neighbors.comp",
-                               SORT_GROUP,
-                               {size, write_sort_network(RUN), write_each("EACH_OF_RUN", 0, RUN, "u"),
-                                write_each("EACH_PAIR_OF_RUN", 0, RUN / 2, "u")},
-                               {}};
-        if (runs == 1)
-            sort.defines.emplace_back("IS_WHOLE");
-        run(sort, first, rows, runs, progress);
-        if (runs > 1)
-            run({"photons/merge_neighbors.comp", SORT_GROUP, {size, "RUNS " + std::to_string(runs), write_each("EACH_RUN", 0, runs)}, {}}, first, rows,
-                1, progress);
+        const std::vector<gpu::KernelSource> kernels = list_sort_kernels(k);
+        run(kernels[0], first, rows, (k + RUN - 1) / RUN, progress);
+        if (kernels.size() > 1)
+            run(kernels[1], first, rows, 1, progress);
     }
 };
 
@@ -79,6 +89,11 @@ Neighbors find_neighbors(gpu::Device& device, Neighborhood neighborhood, const N
     const gpu::Buffer radii(device, count * RADIUS_BYTES, "radii of queries");
     RadiusSettings radius{k + 1}; // those before the next one
     radius.cuts_ties = radius.leaves_self_out = true;
+    GatherKernel list{"photons/list_neighbors.comp", {"CUT_TIES", "BY_ID", "WITHOUT_SELF"}, {}};
+    std::vector<gpu::KernelSource> kernels = list_sort_kernels(k);
+    kernels.insert(kernels.begin(), {name_radius_kernel(neighborhood, asked, radius),
+                                     name_gather_kernel(neighborhood, asked, list)});
+    device.compile_ahead(kernels);
     find_radii(device, neighborhood, asked, radius, radii, STAGE, progress);
 
     Neighbors neighbors{gpu::Buffer(device, count * k * sizeof(float), "neighbor ids"),
@@ -88,9 +103,9 @@ Neighbors find_neighbors(gpu::Device& device, Neighborhood neighborhood, const N
     const gpu::Buffer found(device, part * stride * PAIR_BYTES, "neighbor lists");
     const gpu::Buffer found_counts(device, part * sizeof(std::uint32_t), "neighbor lists");
     const Lists lists{device, k, found, found_counts, ordered.result_rows, neighbors};
-    const GatherKernel list{"photons/list_neighbors.comp",
-                            {"CUT_TIES", "BY_ID", "WITHOUT_SELF"},
-                            {{"radii", radii}, {"found_neighbors", found}, {"found_counts", found_counts}}};
+    for (const gpu::Binding& binding :
+         {gpu::Binding{"radii", radii}, {"found_neighbors", found}, {"found_counts", found_counts}})
+        list.bindings.push_back(binding);
     for (std::uint64_t first = 0; first < count; first += part) {
         const std::uint64_t rows = std::min(part, count - first);
         const shared::ListSettings push{make_gather_settings(neighborhood, k + 1), static_cast<std::uint32_t>(first), k,

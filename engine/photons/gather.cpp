@@ -95,8 +95,9 @@ std::vector<std::uint32_t> run_side_by_side(const Gathering& about, const gpu::K
 
 // Runs the kernel a query at a time, again and again where it is not through; every dispatch brings each query on.
 // Returns those that ended with the flag TIES_UNCOUNTED.
-std::vector<std::uint32_t> run_singly(const Gathering& about, const gpu::KernelSource& kernel, const std::vector<gpu::Binding>& more,
-                std::span<const std::byte> push, std::span<const std::uint32_t> queries, std::uint32_t saved_words) {
+std::vector<std::uint32_t> run_singly(const Gathering& about, const gpu::KernelSource& kernel,
+                                      const std::vector<gpu::Binding>& more, std::span<const std::byte> push,
+                                      std::span<const std::uint32_t> queries, std::uint32_t saved_words) {
     std::vector<std::uint32_t> uncounted;
     for (std::size_t begin = 0; begin < queries.size(); begin += LARGEST_SINGLE_COUNT) {
         const std::span<const std::uint32_t> part =
@@ -128,6 +129,18 @@ std::vector<std::uint32_t> run_singly(const Gathering& about, const gpu::KernelS
     return uncounted;
 }
 
+// Of queries one by one.
+gpu::KernelSource name_selection(const Neighborhood& neighborhood, const Queries& queries,
+                                 const RadiusSettings& settings, std::uint32_t capacity) {
+    gpu::KernelSource kernel{"photons/select_radius.comp", 0, list_defines(neighborhood, queries), {capacity}};
+    if (settings.leaves_self_out)
+        kernel.defines.emplace_back("WITHOUT_SELF");
+    kernel.defines.emplace_back("BY_ID");
+    if (settings.cuts_ties)
+        kernel.defines.emplace_back("CUT_TIES");
+    return kernel;
+}
+
 void set_batches(std::span<std::byte> push, std::uint32_t batches) {
     shared::GatherSettings settings;
     std::memcpy(&settings, push.data(), sizeof settings);
@@ -155,46 +168,53 @@ shared::GatherSettings make_gather_settings(const Neighborhood& neighborhood, st
     return settings;
 }
 
+gpu::KernelSource name_radius_kernel(const Neighborhood& neighborhood, const Queries& queries,
+                                     const RadiusSettings& settings) {
+    gpu::KernelSource kernel{"photons/find_radii.comp", 0, list_defines(neighborhood, queries), {}};
+    if (settings.leaves_self_out)
+        kernel.defines.emplace_back("WITHOUT_SELF");
+    if (settings.cuts_ties)
+        kernel.defines.emplace_back("CUT_TIES");
+    if (settings.leaves_self_out)
+        kernel.defines.emplace_back("BY_ID");
+    if (settings.is_carried)
+        kernel.defines.emplace_back("CARRIED");
+    const std::uint32_t shell = size_shell(settings.rank);
+    kernel.defines.push_back("SHELL_SIZE " + std::to_string(shell) + "u");
+    kernel.defines.push_back(write_each("EACH_KEPT", 0, shell));
+    return kernel;
+}
+
+gpu::KernelSource name_gather_kernel(const Neighborhood& neighborhood, const Queries& queries,
+                                     const GatherKernel& kernel) {
+    gpu::KernelSource source{kernel.path, 0, list_defines(neighborhood, queries), {}};
+    source.defines.insert(source.defines.end(), kernel.defines.begin(), kernel.defines.end());
+    return source;
+}
+
 void find_radii(gpu::Device& device, const Neighborhood& neighborhood, const Queries& queries,
                 const RadiusSettings& settings, const gpu::Buffer& radii, const std::string& stage,
                 const Progress& progress) {
     if (neighborhood.tree.count == 0 || queries.count == 0)
         return;
     const Gathering about{device, neighborhood, queries, stage, progress};
-    std::vector<std::string> defines = list_defines(neighborhood, queries);
-    if (settings.leaves_self_out)
-        defines.emplace_back("WITHOUT_SELF");
-    std::vector<std::string> selecting = defines; // what those one by one are specialised to
-    selecting.emplace_back("BY_ID");
-    if (settings.cuts_ties) {
-        defines.emplace_back("CUT_TIES");
-        selecting.emplace_back("CUT_TIES");
-    }
-    if (settings.leaves_self_out)
-        defines.emplace_back("BY_ID");
-    if (settings.is_carried)
-        defines.emplace_back("CARRIED");
-    std::vector<std::string> searching = defines;
-    const std::uint32_t shell = size_shell(settings.rank);
-    searching.push_back("SHELL_SIZE " + std::to_string(shell) + "u");
-    searching.push_back(write_each("EACH_KEPT", 0, shell));
     shared::GatherSettings push = make_gather_settings(neighborhood, settings.rank);
     push.includes_last = settings.includes_last ? 1 : 0;
     push.carry = settings.carry;
     push.stride = settings.stride;
     const std::span<std::byte> bytes = std::as_writable_bytes(std::span(&push, 1));
-    const std::vector<std::uint32_t> left = run_side_by_side(about, {"photons/find_radii.comp", 0, searching, {}},
+    const std::vector<std::uint32_t> left = run_side_by_side(about, name_radius_kernel(neighborhood, queries, settings),
                                                              {{"radii", radii}}, bytes, 0, queries.count, false);
     if (left.empty())
         return;
     set_batches(bytes, 1);
     const std::uint32_t capacity = size_list(settings.rank, device.limits().subgroup_size);
     const std::vector<std::uint32_t> uncounted =
-        run_singly(about, {"photons/select_radius.comp", 0, selecting, {capacity}}, {{"radii", radii}}, bytes, left,
+        run_singly(about, name_selection(neighborhood, queries, settings, capacity), {{"radii", radii}}, bytes, left,
                    SAVED_SEARCH_HEAD + 2 * shared::TREE_STACK_SIZE + 3 * capacity);
     if (uncounted.empty() || !settings.needs_ties)
         return;
-    defines = list_defines(neighborhood, queries);
+    std::vector<std::string> defines = list_defines(neighborhood, queries);
     defines.emplace_back("SINGLY");
     run_singly(about, {"photons/count_ties.comp", 0, defines, {}}, {{"radii", radii}}, bytes, uncounted,
                SAVED_WALK_WORDS);
@@ -204,10 +224,8 @@ std::vector<std::uint32_t> gather_once(gpu::Device& device, const Neighborhood& 
                                        const GatherKernel& kernel, std::span<const std::byte> push,
                                        const std::string& stage, const Progress& progress) {
     const Gathering about{device, neighborhood, queries, stage, progress};
-    std::vector<std::string> defines = list_defines(neighborhood, queries);
-    defines.insert(defines.end(), kernel.defines.begin(), kernel.defines.end());
-    return run_side_by_side(about, {kernel.path, 0, defines, {}}, kernel.bindings, push, 0, queries.count,
-                            kernel.takes_subgroups);
+    return run_side_by_side(about, name_gather_kernel(neighborhood, queries, kernel), kernel.bindings, push, 0,
+                            queries.count, kernel.takes_subgroups);
 }
 
 void run_gather(gpu::Device& device, const Neighborhood& neighborhood, const Queries& queries,
@@ -216,16 +234,15 @@ void run_gather(gpu::Device& device, const Neighborhood& neighborhood, const Que
     if (neighborhood.tree.count == 0 || count == 0)
         return;
     const Gathering about{device, neighborhood, queries, stage, progress};
-    std::vector<std::string> defines = list_defines(neighborhood, queries);
-    defines.insert(defines.end(), kernel.defines.begin(), kernel.defines.end());
-    const std::vector<std::uint32_t> left = run_side_by_side(about, {kernel.path, 0, defines, {}}, kernel.bindings,
-                                                             push, first, count, kernel.takes_subgroups);
+    gpu::KernelSource source = name_gather_kernel(neighborhood, queries, kernel);
+    const std::vector<std::uint32_t> left =
+        run_side_by_side(about, source, kernel.bindings, push, first, count, kernel.takes_subgroups);
     if (left.empty())
         return;
     std::vector<std::byte> singly(push.begin(), push.end());
     set_batches(singly, 1);
-    defines.emplace_back("SINGLY");
-    run_singly(about, {kernel.path, 0, defines, {}}, kernel.bindings, singly, left,
+    source.defines.emplace_back("SINGLY");
+    run_singly(about, source, kernel.bindings, singly, left,
                kernel.saved_words ? kernel.saved_words : SAVED_WALK_WORDS);
 }
 

@@ -23,9 +23,9 @@ struct RadiusSettings {
     bool cuts_ties = false;     // members count whole, ties going to the nearer and then to the lower id …
     bool includes_last = false; // … and the photon of the rank is one of them
     bool leaves_self_out = false;
-    bool needs_ties = true; // the weight of photons at just the radius is wanted
-    float carry = 0;        // the radii hold squared radii of this share of what is sought; 0: nothing
-    bool is_carried = false; // those that are marked as carried over stay
+    bool needs_ties = true;   // the weight of photons at just the radius is wanted
+    float carry = 0;          // the radii hold squared radii of this share of what is sought; 0: nothing
+    bool is_carried = false;  // those that are marked as carried over stay
     std::uint32_t stride = 1; // of so many queries only the first asks; `queries.count` counts those
 };
 
@@ -45,6 +45,13 @@ struct GatherKernel {
     bool takes_subgroups = false;       // a subgroup takes one query at a time
     std::uint32_t saved_words = 0;      // of a query that is not through; 0: as of photons/stream_members.glsl
 };
+
+// What find_radii() and the other two dispatch first, side by side; few queries are left to the kernels for those one
+// by one. Of a neighborhood only what it is counts, its tree may still be empty.
+gpu::KernelSource name_radius_kernel(const Neighborhood& neighborhood, const Queries& queries,
+                                     const RadiusSettings& settings);
+gpu::KernelSource name_gather_kernel(const Neighborhood& neighborhood, const Queries& queries,
+                                     const GatherKernel& kernel);
 
 shared::GatherSettings make_gather_settings(const Neighborhood& neighborhood, std::uint32_t rank);
 

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "gpu/commands.h"
+#include "photons/tree_kernels.h"
 
 namespace photonloupe {
 namespace {
@@ -15,10 +16,6 @@ const gpu::Buffer& choose_buffer(const gpu::Buffer& buffer, const gpu::Buffer& o
     return buffer.is_empty() ? other : buffer;
 }
 
-std::vector<std::string> define_rows(std::uint32_t rows) {
-    return rows == 0 ? std::vector<std::string>{} : std::vector{"RANGE_ROWS " + std::to_string(rows) + "u"};
-}
-
 } // namespace
 
 void order_columns(gpu::Commands& commands, const PhotonMap& photons, const RangeRows* ranges, const KdTree& tree,
@@ -26,7 +23,8 @@ void order_columns(gpu::Commands& commands, const PhotonMap& photons, const Rang
     const struct {
         std::uint32_t first, count;
     } push{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count)};
-    commands.dispatch({"photons/order_columns.comp", ORDER_GROUP, define_rows(ranges ? tree.range_rows : 0), {}},
+    const TreeKernels kernels(ranges ? tree.range_rows : 0, 0);
+    commands.dispatch(kernels.order_columns(),
                       {{"normal_index", photons.normal_index},
                        {"position_emitter", photons.position_emitter},
                        {"range_rows", ranges ? ranges->values : tree.positions},
@@ -64,15 +62,15 @@ void bound_tree(gpu::Device& device, const KdTree& tree, const std::string& stag
         return;
     gpu::Commands commands(device, stage);
     const auto photon_count = static_cast<std::uint32_t>(tree.count);
-    const std::vector<std::string> defines = define_rows(with_ranges ? tree.range_rows : 0);
+    const TreeKernels kernels(with_ranges ? tree.range_rows : 0, device.limits().subgroup_size);
     const std::uint64_t largest = std::uint64_t{device.limits().max_group_count} * 64;
-    const auto bound_level = [&](std::uint32_t level, const char* kernel) {
+    const auto bound_level = [&](std::uint32_t level, const gpu::KernelSource& kernel) {
         const std::uint64_t nodes = 1ull << level;
         for (std::uint64_t first = 0; first < nodes; first += largest) {
             const std::uint64_t count = std::min(largest, nodes - first);
             const shared::TreeRefit push{photon_count, level, static_cast<std::uint32_t>(first),
                                          static_cast<std::uint32_t>(count)};
-            commands.dispatch({kernel, 64, defines, {}},
+            commands.dispatch(kernel,
                               {{"tree_positions", tree.positions},
                                {"tree_normals", tree.normals},
                                {"tree_rows", choose_buffer(tree.rows, tree.normals)},
@@ -82,9 +80,9 @@ void bound_tree(gpu::Device& device, const KdTree& tree, const std::string& stag
                               push, count);
         }
     };
-    bound_level(tree.leaf_level, "photons/refit_leaves.comp");
+    bound_level(tree.leaf_level, kernels.refit_leaves());
     for (std::uint32_t level = tree.leaf_level; level > 0; --level)
-        bound_level(level - 1, "photons/refit_nodes.comp");
+        bound_level(level - 1, kernels.refit_nodes());
     commands.run();
 }
 

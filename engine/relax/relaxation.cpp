@@ -9,6 +9,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "photons/tree_kernels.h"
 #include "relax/flux_diffusion.h"
 
 namespace photonloupe {
@@ -32,6 +33,14 @@ float find_tau(const RelaxSettings& settings, std::uint32_t step) {
     const double s = static_cast<double>(step) / settings.steps;
     const auto [most, least] = settings.over_relaxation;
     return static_cast<float>(least + (most - least) * std::exp(-6.0 * s * s));
+}
+
+gpu::KernelSource name_surface_kernel() {
+    return {"relax/find_surface.comp", GROUP, {}, {}};
+}
+
+gpu::KernelSource name_sum_kernel() {
+    return {"relax/sum_moves.comp", GROUP, {}, {}};
 }
 
 gpu::Buffer make_filled(gpu::Device& device, std::uint64_t bytes, const char* purpose) {
@@ -90,6 +99,11 @@ Relaxation::Relaxation(gpu::Device& device, const PhotonMap& photons, const KdTr
     m_moves = make_filled(device, count * sizeof(glm::vec4), "moves");
     m_radii = make_filled(device, count * RADIUS_BYTES, "radii");
     m_flat_axes = find_flat_axes(m_tree);
+    if (settings.repel == Space::parameter) {
+        m_parameters = trees.layered->parameters;
+        m_parameter_scale = trees.parameter_scale;
+    }
+    m_device.compile_ahead(list_kernels());
     constrain(trees, progress);
     take_layers(trees, progress);
     if (m_surface.scene)
@@ -129,18 +143,16 @@ void Relaxation::constrain(const LayerTrees& trees, const Progress& progress) {
     m_constraint =
         measure_constraint(m_device, layers, ask_photons(layered.tree, &reach2), constraint, m_radii, progress);
     if (m_settings.repel == Space::world)
-        bring_rows(layered.tree.positions.read<glm::vec4>(m_photons.count), m_tree,
-                   {&m_constraint.along, &m_constraint.across, &m_constraint.offsets, &m_constraint.member_radii,
-                    &m_radii});
+        bring_rows(
+            layered.tree.positions.read<glm::vec4>(m_photons.count), m_tree,
+            {&m_constraint.along, &m_constraint.across, &m_constraint.offsets, &m_constraint.member_radii, &m_radii});
 }
 
 void Relaxation::take_layers(const LayerTrees& trees, const Progress& progress) {
     if (m_settings.repel == Space::world)
         return;
-    m_parameters = trees.layered->parameters;
-    m_parameter_scale = trees.parameter_scale;
-    m_reach2 = find_layer_reaches(m_device, *trees.by_parameters, m_tree, m_settings.neighbors, m_settings.beta,
-                                  progress);
+    m_reach2 =
+        find_layer_reaches(m_device, *trees.by_parameters, m_tree, m_settings.neighbors, m_settings.beta, progress);
     if (m_notes.empty()) {
         m_notes = m_parameters->notes;
         note_reaches(*trees.layered, m_reach2, "repulsion", m_settings.beta);
@@ -204,7 +216,7 @@ void Relaxation::find_surface(const Progress& progress) {
         m_device, STAGE, m_photons.count, FIRST_CHUNK, progress,
         [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
             const shared::MoveSettings push{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count), 0, 0};
-            commands.dispatch({"relax/find_surface.comp", GROUP, {}, {}},
+            commands.dispatch(name_surface_kernel(),
                               {{"tree_positions", m_tree.positions},
                                {"tree_normals", m_tree.normals},
                                {"power_object", m_photons.power_object},
@@ -215,27 +227,60 @@ void Relaxation::find_surface(const Progress& progress) {
         });
 }
 
+// Of a step; the first seeks its radii.
+RadiusSettings Relaxation::choose_radius(std::uint32_t step) const {
+    RadiusSettings radius{rank_for(m_settings.neighbors)};
+    radius.carry = m_carry;
+    radius.is_carried = m_settings.search == RadiusSearch::carried && step > 0;
+    return radius;
+}
+
+GatherKernel Relaxation::name_repulsion() const {
+    GatherKernel kernel{"relax/repel_photons.comp", {}, {}};
+    if (m_settings.search == RadiusSearch::carried)
+        kernel.defines.emplace_back("CARRIED");
+    if (m_settings.constraint.descriptor != Descriptor::none)
+        kernel.defines.emplace_back("CONSTRAINED");
+    return kernel;
+}
+
+gpu::KernelSource Relaxation::name_move_kernel() const {
+    gpu::KernelSource kernel{"relax/move_photons.comp", GROUP, {}, {}};
+    if (m_surface.scene)
+        kernel.defines.emplace_back("HAS_SURFACE");
+    return kernel;
+}
+
+// What the steps dispatch, beside the diffusion of flux.
+std::vector<gpu::KernelSource> Relaxation::list_kernels() const {
+    const Neighborhood neighborhood = look();
+    const Queries queries = ask();
+    std::vector<gpu::KernelSource> kernels{name_radius_kernel(neighborhood, queries, choose_radius(0)),
+                                           name_gather_kernel(neighborhood, queries, name_repulsion())};
+    if (m_surface.scene)
+        kernels.push_back(name_surface_kernel());
+    kernels.push_back(name_move_kernel());
+    const TreeKernels trees(0, m_device.limits().subgroup_size);
+    for (const gpu::KernelSource& kernel : {trees.refit_leaves(), trees.refit_nodes(), name_sum_kernel(),
+                                            name_radius_kernel(neighborhood, queries, choose_radius(1))})
+        kernels.push_back(kernel);
+    return kernels;
+}
+
 void Relaxation::repel(float tau, const Progress& progress) {
     const float limiter =
         m_settings.limit > 0 ? std::numbers::ln2_v<float> / (m_settings.limit * m_settings.limit) : 0.0f;
     const Neighborhood neighborhood = look();
     const Queries queries = ask();
-    RadiusSettings radius{rank_for(m_settings.neighbors)};
-    radius.carry = m_carry;
-    const bool carries = m_settings.search == RadiusSearch::carried;
-    radius.is_carried = carries && m_step > 0; // the first step seeks its radii
+    const RadiusSettings radius = choose_radius(m_step);
     find_radii(m_device, neighborhood, queries, radius, m_radii, STAGE, progress);
     const bool is_constrained = m_settings.constraint.descriptor != Descriptor::none;
-    GatherKernel kernel{"relax/repel_photons.comp",
-                        {},
-                        {{"constraint_along", is_constrained ? m_constraint.along : m_moves},
-                         {"constraint_across", is_constrained ? m_constraint.across : m_moves},
-                         {"radii", m_radii},
-                         {"moves", m_moves}}};
-    if (carries)
-        kernel.defines.emplace_back("CARRIED");
-    if (is_constrained)
-        kernel.defines.emplace_back("CONSTRAINED");
+    GatherKernel kernel = name_repulsion();
+    for (const gpu::Binding& binding : {gpu::Binding{"constraint_along", is_constrained ? m_constraint.along : m_moves},
+                                        {"constraint_across", is_constrained ? m_constraint.across : m_moves},
+                                        {"radii", m_radii},
+                                        {"moves", m_moves}})
+        kernel.bindings.push_back(binding);
     const shared::RepelSettings push{make_gather_settings(neighborhood, radius.rank), tau, limiter, m_spacing, 0};
     gather(m_device, neighborhood, queries, kernel, push, STAGE, progress);
     m_carry = 1.0f;
@@ -270,17 +315,15 @@ void Relaxation::rebuild_tree(const Progress& progress) {
 }
 
 void Relaxation::move(const Progress& progress) {
-    std::vector<std::string> defines;
+    const gpu::KernelSource kernel = name_move_kernel();
     const SceneBuffers* scene = m_surface.scene.get();
-    if (scene)
-        defines.emplace_back("HAS_SURFACE");
     const bool is_constrained = m_settings.constraint.descriptor != Descriptor::none;
     const gpu::Buffer& unused = m_next;
     gpu::run_in_chunks(
         m_device, STAGE, m_photons.count, FIRST_CHUNK, progress,
         [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
             const shared::MoveSettings push{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count), 0, 0};
-            commands.dispatch({"relax/move_photons.comp", GROUP, defines, {}},
+            commands.dispatch(kernel,
                               {{"tree_positions_before", m_tree.positions},
                                {"tree_positions_after", m_next},
                                {"moves", m_moves},
@@ -328,8 +371,7 @@ StepReport Relaxation::report_step(float tau) {
     const gpu::Buffer sums(m_device, runs * sizeof(glm::vec4), "sums of moves");
     gpu::Commands commands(m_device, STAGE);
     const shared::MoveSettings push{0, static_cast<std::uint32_t>(runs), static_cast<std::uint32_t>(count), 0};
-    commands.dispatch({"relax/sum_moves.comp", GROUP, {}, {}},
-                      {{"moves", m_moves}, {"radii", m_radii}, {"move_sums", sums}}, push, runs);
+    commands.dispatch(name_sum_kernel(), {{"moves", m_moves}, {"radii", m_radii}, {"move_sums", sums}}, push, runs);
     commands.run();
     for (const glm::vec4& sum : sums.read<glm::vec4>(runs)) {
         report.mean_move += sum.x;

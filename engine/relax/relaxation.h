@@ -67,6 +67,10 @@ private:
     void constrain(const LayerTrees& trees, const Progress& progress);
     void take_layers(const LayerTrees& trees, const Progress& progress);
     void note_reaches(const ParameterTree& tree, const gpu::Buffer& reaches2, const char* of, float beta);
+    RadiusSettings choose_radius(std::uint32_t step) const;
+    GatherKernel name_repulsion() const;
+    gpu::KernelSource name_move_kernel() const;
+    std::vector<gpu::KernelSource> list_kernels() const;
     void repel(float tau, const Progress& progress);
     void move(const Progress& progress);
     void rebuild_tree(const Progress& progress);
@@ -89,8 +93,8 @@ private:
     gpu::Buffer m_reach2;                              // the same, tree order
     gpu::Buffer m_power;                               // rgb, tree order; with flux diffusion
     Constraint m_constraint;
-    float m_carry = 0;               // share of the squared radii that the next query looks for
-    double m_travel = 0;             // farthest a photon can have moved since the tree was built, in radii
+    float m_carry = 0;   // share of the squared radii that the next query looks for
+    double m_travel = 0; // farthest a photon can have moved since the tree was built, in radii
     std::vector<std::string> m_notes;
     std::array<double, 3> m_shift{}; // of positions: the map's origin less the scene's
     float m_spacing = 0;

@@ -29,6 +29,16 @@ constexpr std::uint64_t LARGEST_EXPECTATION = 1ull << 26;
 constexpr std::uint64_t PHOTON_BYTES = 3 * sizeof(glm::vec4);
 constexpr std::uint32_t LARGEST_BOUNCE_COUNT = 64;
 
+// What a trace dispatches, in this order.
+struct TraceKernels {
+    gpu::KernelSource shoot{"trace/shoot_photons.comp", 0, {}, {}};
+    gpu::KernelSource count{"trace/count_photons.comp", 64, {}, {}};
+    gpu::KernelSource scan{"trace/scan_blocks.comp", 0, {}, {}};
+    gpu::KernelSource write{"trace/write_photons.comp", 64, {}, {}};
+    gpu::KernelSource sum{"trace/sum_balance.comp", 64, {}, {}};
+    gpu::KernelSource scale{"trace/scale_power.comp", 64, {}, {}};
+};
+
 class Tracer {
 public:
     Tracer(gpu::Device& device, const Scene& scene, const SceneBuffers& buffers, const TraceSettings& settings)
@@ -37,7 +47,11 @@ public:
           m_emitters(gpu::make_buffer(device, m_table.emitters, "emitters")),
           m_cells(gpu::make_buffer(device, m_table.cells, "projection cells")),
           m_cell_rows(gpu::make_buffer(device, m_table.cell_rows, "projection rows")),
-          m_slot_count(count_slots(scene, settings)), m_defines(list_defines()) {}
+          m_slot_count(count_slots(scene, settings)) {
+        m_kernels.shoot.defines = list_defines();
+        if (settings.paths)
+            m_kernels.write.defines.emplace_back("RECORD_PATHS");
+    }
 
     TracedPhotons run(const Progress& progress);
 
@@ -67,7 +81,7 @@ private:
     gpu::Buffer m_cells;
     gpu::Buffer m_cell_rows;
     std::uint32_t m_slot_count;
-    std::vector<std::string> m_defines;
+    TraceKernels m_kernels;
     ChunkScratch m_scratch;
     shared::TraceSettings m_push{};
     std::uint32_t m_paths_per_lane = PATHS_PER_LANE;
@@ -138,7 +152,7 @@ void Tracer::choose_chunk(double milliseconds) {
 double Tracer::shoot() {
     const std::uint32_t blocks = (m_push.count + shared::PATHS_PER_BLOCK - 1) / shared::PATHS_PER_BLOCK;
     gpu::Commands commands(m_device, "trace photons");
-    commands.dispatch({"trace/shoot_photons.comp", 0, m_defines, {}},
+    commands.dispatch(m_kernels.shoot,
                       {{"geometry", m_buffers.geometry},
                        {"shading_normals", m_buffers.normals},
                        {"materials", m_buffers.materials},
@@ -153,12 +167,12 @@ double Tracer::shoot() {
                        {"scratch_normal", m_scratch.normal},
                        {"scratch_power", m_scratch.power}},
                       m_push, m_push.chunk_size / m_push.paths_per_lane);
-    commands.dispatch({"trace/count_photons.comp", 64, {}, {}},
+    commands.dispatch(m_kernels.count,
                       {{"summaries", m_scratch.summaries},
                        {"path_offsets", m_scratch.path_offsets},
                        {"block_sums", m_scratch.block_sums}},
                       m_push, blocks);
-    commands.dispatch({"trace/scan_blocks.comp", 0, {}, {}},
+    commands.dispatch(m_kernels.scan,
                       {{"block_sums", m_scratch.block_sums}, {"block_offsets", m_scratch.block_offsets}}, m_push, 1);
     return commands.run();
 }
@@ -210,12 +224,10 @@ void Tracer::write(std::uint32_t kept, const glm::uvec2& added) {
     m_push.count = kept;
     m_push.photon_base = static_cast<std::uint32_t>(m_photon_count);
     m_push.vertex_base = static_cast<std::uint32_t>(m_vertex_count);
-    const std::vector<std::string> defines =
-        m_settings.paths ? std::vector<std::string>{"RECORD_PATHS"} : std::vector<std::string>{};
     // Without paths the path bindings are not declared; any buffer may stand under their names.
     const gpu::Buffer& unused = m_emitters;
     gpu::Commands commands(m_device, "write photons");
-    commands.dispatch({"trace/write_photons.comp", 64, defines, {}},
+    commands.dispatch(m_kernels.write,
                       {{"emitters", m_emitters},
                        {"summaries", m_scratch.summaries},
                        {"path_offsets", m_scratch.path_offsets},
@@ -230,7 +242,7 @@ void Tracer::write(std::uint32_t kept, const glm::uvec2& added) {
                        {"path_vertices", m_settings.paths ? m_vertices.buffer() : unused},
                        {"path_normals", m_settings.paths ? m_normals.buffer() : unused}},
                       m_push, kept);
-    commands.dispatch({"trace/sum_balance.comp", 64, {}, {}},
+    commands.dispatch(m_kernels.sum,
                       {{"summaries", m_scratch.summaries},
                        {"deposited_flux", m_scratch.deposited_flux},
                        {"lost_flux", m_scratch.lost_flux},
@@ -297,6 +309,8 @@ void Tracer::shoot_slowly() {
 
 TracedPhotons Tracer::run(const Progress& progress) {
     require_memory();
+    m_device.compile_ahead(
+        {m_kernels.shoot, m_kernels.count, m_kernels.scan, m_kernels.write, m_kernels.sum, m_kernels.scale});
     double milliseconds = 0;
     while (!is_done()) {
         progress.report("trace photons", std::min(1.0, find_fraction()));
@@ -329,8 +343,7 @@ void Tracer::scale_power(const Progress& progress) {
         m_device, "scale power", m_photon_count, 1 << 16, progress,
         [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
             const Push push{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count), factor};
-            commands.dispatch({"trace/scale_power.comp", 64, {}, {}}, {{"power_object", m_power.buffer()}}, push,
-                              count);
+            commands.dispatch(m_kernels.scale, {{"power_object", m_power.buffer()}}, push, count);
         });
     for (auto* flux :
          {&m_report.flux_emitted, &m_report.flux_deposited, &m_report.flux_escaped, &m_report.flux_truncated})

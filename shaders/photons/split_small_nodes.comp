@@ -33,10 +33,6 @@ int find_pivot(uint first, uint n, uint axis, uint rank, out uint below) {
 #if SORT_SIZE > 32
     pivot = rank == 24u ? keys[24] : (rank == 32u ? keys[32] : pivot);
 #endif
-#if SORT_SIZE > 64
-    pivot = rank == 40u ? keys[40] : (rank == 48u ? keys[48] : pivot);
-    pivot = rank == 56u ? keys[56] : (rank == 64u ? keys[64] : pivot);
-#endif
     below = 0u;
     EACH_KEY(COUNT_KEY)
     return pivot;

@@ -12,6 +12,7 @@ import build_tree
 import caustic_error
 import estimate_irradiance
 import find_neighbors
+import first_picture
 import parallel_coordinates
 import relax
 import run_scripts
@@ -34,6 +35,7 @@ SUBJECTS: dict[str, Callable[[], Subject]] = {
     "studio_frames": studio_frames.measure,
     "caustic_error": caustic_error.measure,
     "start_up": start_up.measure,
+    "first_picture": first_picture.measure,
 }
 
 

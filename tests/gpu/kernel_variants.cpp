@@ -41,7 +41,7 @@ const std::vector<std::string> RUN{"RUN 2u\n#define EACH_OF_RUN(DO) DO(0u) DO(1u
     NETWORK{"SORT_NETWORK(DO) DO(0, 1)"}, RUNS{"RUNS 2\n#define EACH_RUN(DO) DO(0) DO(1)"};
 const std::vector<std::string> SHELL{"SHELL_SIZE 2u\n#define EACH_KEPT(DO) DO(0) DO(1)"};
 const std::vector<std::string> RANGES{"", "RANGE_ROWS 2u"};
-const std::vector<std::string> SORT{"SORT_SIZE 32", "SORT_SIZE 64", "SORT_SIZE 128"};
+const std::vector<std::string> SORT{"SORT_SIZE 32", "SORT_SIZE 64"};
 const std::vector<std::string> DESCRIPTORS{"DESCRIPTOR 1", "DESCRIPTOR 2", "DESCRIPTOR 3"};
 
 // Kernels that are not named here take no defines.

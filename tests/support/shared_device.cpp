@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "gpu/compile_ahead.h"
+
 namespace photonloupe::test {
 namespace {
 
@@ -19,6 +21,7 @@ public:
         // A child that spoils its device must start afresh, not from a copy of our threads.
         GTEST_FLAG_SET(death_test_style, "threadsafe");
     }
+    void TearDown() override { gpu::CompileAhead::stop_all(); } // the device goes with the globals
 };
 
 [[maybe_unused]] ::testing::Environment* const FOLDERS = ::testing::AddGlobalTestEnvironment(new ShaderFolders);

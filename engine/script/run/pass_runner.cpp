@@ -41,7 +41,13 @@ PassRunner::PassRunner(gpu::Device& device, const PhotonMap& photons, const Prog
                        FindRows find_rows, const Progress& progress)
     : m_device(device), m_photons(photons), m_program(program), m_plan(plan), m_passes(passes), m_outputs(outputs),
       m_settings(settings), m_find_rows(std::move(find_rows)), m_progress(progress),
-      m_columns(device, photons.count, outputs.columns), m_nothing(device, sizeof(glm::vec4), "nothing") {}
+      m_columns(device, photons.count, outputs.columns), m_nothing(device, sizeof(glm::vec4), "nothing") {
+    std::vector<gpu::KernelSource> kernels;
+    for (const EmittedPass& pass : passes)
+        if (!pass.glsl.empty())
+            kernels.push_back(name_kernel(pass));
+    device.compile_ahead(kernels);
+}
 
 bool PassRunner::run(const PhotonLoop& loop, Interpreter& interpreter, LoopReport& report) {
     const std::size_t index = static_cast<std::size_t>(&loop - m_plan.loops.data());
