@@ -4,10 +4,10 @@
 #include "shared/prelude.glsl"
 #include "shared/render.h"
 #include "estimate/luminance.glsl"
-#pragma binding readonly vec4 hit_weight
-#pragma binding readonly vec4 direct_irradiance
-#pragma binding readonly vec4 map_irradiance
-#pragma binding readonly vec4 eye_emission
+#pragma binding texel hit_weight
+#pragma binding texel direct_irradiance
+#pragma binding texel map_irradiance
+#pragma binding texel eye_emission
 #pragma binding writeonly vec4 film
 
 layout(push_constant) uniform Push { FilmSettings settings; };
@@ -18,13 +18,13 @@ void main() {
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < settings.samples; ++i) {
         uint index = pixel * settings.samples + i;
-        if (settings.uses_emission != 0u) sum += eye_emission[index].rgb;
+        if (settings.uses_emission != 0u) sum += eye_emission_at(index).rgb;
         for (uint slot = 0u; slot < settings.slot_count; ++slot) {
             uint at = slot * settings.sample_count + index;
-            vec3 weight = hit_weight[at].rgb;
+            vec3 weight = hit_weight_at(at).rgb;
             if (settings.uses_colors != 0u) weight = vec3(find_luminance(weight));
-            if (settings.uses_direct != 0u) sum += weight * direct_irradiance[at].rgb;
-            if (settings.uses_map != 0u) sum += weight * map_irradiance[at].rgb;
+            if (settings.uses_direct != 0u) sum += weight * direct_irradiance_at(at).rgb;
+            if (settings.uses_map != 0u) sum += weight * map_irradiance_at(at).rgb;
         }
     }
     film[settings.first_pixel + pixel] = vec4(sum / float(settings.samples), 1.0);

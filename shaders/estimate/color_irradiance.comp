@@ -4,7 +4,7 @@
 #include "shared/prelude.glsl"
 #include "shared/render.h"
 #include "estimate/luminance.glsl"
-#pragma binding readonly vec4 color_sums
+#pragma binding texel color_sums
 #pragma binding vec4 irradiance
 
 layout(push_constant) uniform Push { FilmSettings settings; };
@@ -12,7 +12,7 @@ layout(push_constant) uniform Push { FilmSettings settings; };
 void main() {
     uint at = gl_GlobalInvocationID.x;
     if (at >= settings.sample_count * settings.slot_count) return;
-    vec4 sums = color_sums[at];
+    vec4 sums = color_sums_at(at);
     vec3 mean = sums.w > 0.0 ? sums.rgb / sums.w : vec3(0.0);
     irradiance[at] = vec4(mean * find_luminance(irradiance[at].rgb), 0.0);
 }

@@ -34,7 +34,7 @@ void meet_payload(uint lane, float weight) {
 #define HAS_PAYLOAD
 #include "photons/stream_members.glsl"
 #include "photons/take_turns.glsl"
-#pragma binding readonly vec4 radii
+#pragma binding texel radii
 #pragma binding readonly uint result_rows
 #pragma binding writeonly vec4 irradiance
 
@@ -46,7 +46,7 @@ const float SHARED_COSINE = 0.99;
 // The radius of the query's group; false where it has nothing to do with this query.
 bool take_radius(uint query, out vec4 radius) {
     uint leader = query / settings.stride;
-    radius = radii[leader];
+    radius = radii_at(leader);
     if (leader * settings.stride == query) return true;
     vec3 d = query_points_at(leader * settings.stride).xyz - my_place;
     vec3 normal = query_normals_at(leader * settings.stride).xyz;

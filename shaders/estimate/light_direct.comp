@@ -6,8 +6,8 @@
 #include "shared/math.glsl"
 #include "scene/intersect.glsl"
 #pragma binding readonly Light lights
-#pragma binding readonly vec4 hit_point
-#pragma binding readonly vec4 hit_normal
+#pragma binding texel hit_point
+#pragma binding texel hit_normal
 #pragma binding writeonly vec4 direct_irradiance
 
 layout(push_constant) uniform Push { FilmSettings settings; };
@@ -27,9 +27,9 @@ vec3 light_point(Light light, vec3 point, vec3 normal) {
 void main() {
     uint slot = gl_GlobalInvocationID.x;
     if (slot >= settings.sample_count * settings.slot_count) return;
-    vec4 point = hit_point[slot];
+    vec4 point = hit_point_at(slot);
     vec3 sum = vec3(0.0);
     if (point.w > 0.0)
-        for (uint i = 0u; i < settings.light_count; ++i) sum += light_point(lights[i], point.xyz, hit_normal[slot].xyz);
+        for (uint i = 0u; i < settings.light_count; ++i) sum += light_point(lights[i], point.xyz, hit_normal_at(slot).xyz);
     direct_irradiance[slot] = vec4(sum, 0.0);
 }

@@ -5,8 +5,8 @@
 #include "shared/render.h"
 #include "shared/math.glsl"
 #include "scene/intersect.glsl"
-#pragma binding readonly vec4 position_emitter
-#pragma binding readonly vec4 power_object
+#pragma binding texel position_emitter
+#pragma binding texel power_object
 #pragma binding uint plot
 
 layout(push_constant) uniform Push { PlotSettings settings; };
@@ -30,14 +30,14 @@ void main() {
     if (gl_GlobalInvocationID.x >= settings.count) return;
     uint photon = settings.first + gl_GlobalInvocationID.x;
     vec3 eye = settings.camera.position.xyz;
-    vec3 to_photon = position_emitter[photon].xyz - eye;
+    vec3 to_photon = position_emitter_at(photon).xyz - eye;
     float depth = dot(to_photon, settings.camera.forward.xyz);
     vec3 right = settings.camera.right.xyz;
     vec3 up = settings.camera.up.xyz;
     int column = find_cell(dot(to_photon, right) / (dot(right, right) * depth), settings.width);
     int row = find_cell(-dot(to_photon, up) / (dot(up, up) * depth), settings.height);
     if (!(depth > 0.0) || column < 0 || row < 0 || !is_visible(eye, to_photon)) return;
-    vec3 units = min(power_object[photon].rgb * settings.per_mean_flux * PLOT_UNIT + 0.5, vec3(1e6));
+    vec3 units = min(power_object_at(photon).rgb * settings.per_mean_flux * PLOT_UNIT + 0.5, vec3(1e6));
     uint at = 3u * (uint(row) * settings.width + uint(column));
     atomicAdd(plot[at], uint(units.r));
     atomicAdd(plot[at + 1u], uint(units.g));

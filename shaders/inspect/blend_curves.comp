@@ -9,7 +9,7 @@
 #pragma binding readonly uvec4 column_gaps
 #pragma binding texel curves
 #pragma binding texel extents
-#pragma binding readonly vec4 colors
+#pragma binding texel colors
 #pragma binding uvec2 canvas
 #pragma binding writeonly uint pixels
 
@@ -92,8 +92,8 @@ void main() {
     uint at = settings.first_row * settings.width + column;
     load_rows(at);
     for (uint curve = settings.first_curve; curve < settings.end_curve; ++curve) {
-        if (gaps.y < settings.gap_count) draw_gap(column, gaps.x, gaps.y, curve, colors[curve]);
-        if (gaps.w < settings.gap_count) draw_gap(column, gaps.z, gaps.w, curve, colors[curve]);
+        if (gaps.y < settings.gap_count) draw_gap(column, gaps.x, gaps.y, curve, colors_at(curve));
+        if (gaps.w < settings.gap_count) draw_gap(column, gaps.z, gaps.w, curve, colors_at(curve));
     }
     store_rows(at);
 }

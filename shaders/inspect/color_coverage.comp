@@ -6,7 +6,7 @@
 #include "inspect/pack_color.glsl"
 #pragma binding readonly uvec2 coverage
 #pragma binding readonly uint largest
-#pragma binding readonly vec4 color_map
+#pragma binding texel color_map
 #pragma binding writeonly uint pixels
 
 layout(push_constant) uniform Push { PixelSettings settings; };
@@ -29,7 +29,7 @@ void main() {
     }
     if (counts.y > 0u) {
         uint entry = uint(scale_count(counts.y, largest[1]) * float(COLOR_COUNT));
-        color = vec4(color_map[min(entry, COLOR_COUNT - 1u)].rgb, 1.0);
+        color = vec4(color_map_at(min(entry, COLOR_COUNT - 1u)).rgb, 1.0);
     }
     pixels[pixel] = pack_color(color);
 }

@@ -11,8 +11,8 @@
 #include "photons/tree_texels.glsl"
 #pragma binding texel tree_normals
 #pragma binding texel normal_bounds
-#pragma binding readonly vec4 surface_points
-#pragma binding readonly vec4 surface_normals
+#pragma binding texel surface_points
+#pragma binding texel surface_normals
 #pragma binding uvec4 walks
 
 layout(push_constant) uniform Push { CellSettings settings; };
@@ -96,14 +96,14 @@ void main() {
     if (gl_GlobalInvocationID.x >= settings.count) return;
     uint pixel = settings.first + gl_GlobalInvocationID.x;
     uvec4 walk = walks[pixel];
-    vec4 seen = surface_points[pixel];
+    vec4 seen = surface_points_at(pixel);
     if (walk.x == 0u) return;
     if (!(seen.w < INFINITY)) {
         walks[pixel] = uvec4(0u, walk.yzw);
         return;
     }
     point = seen.xyz + settings.shift.xyz;
-    normal = surface_normals[pixel].xyz;
+    normal = surface_normals_at(pixel).xyz;
     least = uintBitsToFloat(walk.y);
     nearest = walk.z;
     uint node = walk_from(walk.x);

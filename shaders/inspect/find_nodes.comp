@@ -4,7 +4,7 @@
 #include "shared/prelude.glsl"
 #include "shared/inspect.h"
 #include "photons/tree_texels.glsl"
-#pragma binding readonly vec4 surface_points
+#pragma binding texel surface_points
 #pragma binding writeonly uint nodes
 
 layout(push_constant) uniform Push { CellSettings settings; };
@@ -12,7 +12,7 @@ layout(push_constant) uniform Push { CellSettings settings; };
 void main() {
     if (gl_GlobalInvocationID.x >= settings.count) return;
     uint pixel = settings.first + gl_GlobalInvocationID.x;
-    vec4 seen = surface_points[pixel];
+    vec4 seen = surface_points_at(pixel);
     vec3 point = seen.xyz + settings.shift.xyz;
     uint node = 1u;
     for (uint level = 0u; level < settings.level; ++level) {

@@ -4,8 +4,8 @@
 #include "shared/prelude.glsl"
 #include "shared/splat.h"
 #pragma binding readonly uint sums
-#pragma binding readonly vec4 surface_points
-#pragma binding readonly vec4 surface_normals
+#pragma binding texel surface_points
+#pragma binding texel surface_normals
 #pragma binding writeonly uint pixels
 
 layout(push_constant) uniform Push { ResolveSettings settings; };
@@ -16,10 +16,10 @@ const vec3 CONTEXT = vec3(0.48);
 
 vec3 shade_surface(uint pixel) {
     if (settings.has_surface == 0u) return settings.background.rgb;
-    vec4 seen = surface_points[pixel];
+    vec4 seen = surface_points_at(pixel);
     if (!(seen.w < INFINITY)) return settings.background.rgb;
     vec3 to_eye = normalize(settings.eye.xyz - seen.xyz);
-    return mix(SURFACE_LOW, SURFACE_HIGH, clamp(dot(to_eye, surface_normals[pixel].xyz), 0.0, 1.0));
+    return mix(SURFACE_LOW, SURFACE_HIGH, clamp(dot(to_eye, surface_normals_at(pixel).xyz), 0.0, 1.0));
 }
 
 float find_opacity(uint weight) {

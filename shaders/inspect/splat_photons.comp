@@ -4,11 +4,11 @@
 // Output: sums (SPLAT_SUMS fixed-point numbers a pixel).
 #include "shared/prelude.glsl"
 #include "shared/splat.h"
-#pragma binding readonly vec4 position_emitter
+#pragma binding texel position_emitter
 #pragma binding readonly uint colors
 #pragma binding readonly uint marks
-#pragma binding readonly vec4 surface_points
-#pragma binding readonly vec4 surface_normals
+#pragma binding texel surface_points
+#pragma binding texel surface_normals
 #pragma binding uint sums
 
 layout(push_constant) uniform Push { SplatSettings settings; };
@@ -19,9 +19,9 @@ const float BEHIND = 4e-3;
 
 bool is_hidden(vec3 place, uint pixel) {
     if (settings.has_surface == 0u) return false;
-    vec4 seen = surface_points[pixel];
+    vec4 seen = surface_points_at(pixel);
     if (!(seen.w < INFINITY)) return false;
-    return dot(place - seen.xyz, surface_normals[pixel].xyz) < -BEHIND * seen.w;
+    return dot(place - seen.xyz, surface_normals_at(pixel).xyz) < -BEHIND * seen.w;
 }
 
 void add_point(uint photon, uint pixel, float weight) {
@@ -40,7 +40,7 @@ void add_point(uint photon, uint pixel, float weight) {
 void main() {
     if (gl_GlobalInvocationID.x >= settings.count) return;
     uint photon = settings.first + gl_GlobalInvocationID.x;
-    vec3 place = position_emitter[photon].xyz + settings.shift_radius.xyz;
+    vec3 place = position_emitter_at(photon).xyz + settings.shift_radius.xyz;
     vec3 to_photon = place - settings.camera.position.xyz;
     float depth = dot(to_photon, settings.camera.forward.xyz);
     vec3 right = settings.camera.right.xyz, up = settings.camera.up.xyz;

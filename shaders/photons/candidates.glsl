@@ -20,7 +20,7 @@
 #pragma binding texel query_normals
 #pragma binding texel query_rows
 #pragma binding readonly float query_reach
-#pragma binding readonly vec4 interval_rows
+#pragma binding texel interval_rows
 #ifdef ROW_COUNT
 #include "photons/layers.glsl"
 #endif
@@ -305,7 +305,7 @@ void take_query(uint i, vec4 space_period, float flatness) {
     my_reach2 = query_reach[i];
 #endif
 #ifdef IN_INTERVALS
-#define TAKE_INTERVAL(r) interval_lo.row[r] = interval_rows[r]; interval_hi.row[r] = interval_rows[ROW_COUNT + r];
+#define TAKE_INTERVAL(r) interval_lo.row[r] = interval_rows_at(r); interval_hi.row[r] = interval_rows_at(ROW_COUNT + r);
     EACH_ROW(TAKE_INTERVAL)
 #endif
 #endif

@@ -6,7 +6,7 @@
 // Inputs: tree_rows (tree order), tree_ranges (of each node: least, then greatest row), row_periods (0: no wrap).
 #pragma binding texel tree_rows
 #pragma binding texel tree_ranges
-#pragma binding readonly vec4 row_periods
+#pragma binding texel row_periods
 
 struct Layer {
     vec4 row[ROW_COUNT];
@@ -41,7 +41,7 @@ vec4 row_period[ROW_COUNT];
 vec4 row_inverse[ROW_COUNT];
 
 void load_row_periods() {
-#define LOAD_PERIOD(r) row_period[r] = row_periods[r]; \
+#define LOAD_PERIOD(r) row_period[r] = row_periods_at(r); \
     row_inverse[r] = mix(vec4(0.0), 1.0 / max(row_period[r], vec4(1e-37)), greaterThan(row_period[r], vec4(0.0)));
     EACH_ROW(LOAD_PERIOD)
 }

@@ -20,14 +20,14 @@ void accumulate(Candidate other, float weight) {
 
 #include "photons/stream_members.glsl"
 #include "photons/take_turns.glsl"
-#pragma binding readonly vec4 radii
+#pragma binding texel radii
 
 void main() {
     for (uint batch = 0u; batch < BATCH_COUNT(settings.gather); ++batch) {
         uint query;
         bool has_query = take_turn(settings.gather, batch, query);
         take_query(query, settings.gather.period, settings.gather.flatness);
-        vec4 radius = radii[query];
+        vec4 radius = radii_at(query);
         listed = 0.0;
         my_row = ROW_STRIDE(settings.k) * (query - settings.row_first);
         bool is_listed = stream_members(settings.gather, has_query && radius.w > 0.0, radius);

@@ -3,7 +3,7 @@
 // Outputs: tree_reaches.
 #include "shared/prelude.glsl"
 #include "shared/photons.h"
-#pragma binding readonly vec4 tree_positions
+#pragma binding texel tree_positions
 #pragma binding readonly float reaches_by_id
 #pragma binding writeonly float tree_reaches
 
@@ -12,5 +12,5 @@ layout(push_constant) uniform Push { ReachSettings settings; };
 void main() {
     if (gl_GlobalInvocationID.x >= settings.count) return;
     uint position = settings.first + gl_GlobalInvocationID.x;
-    tree_reaches[position] = reaches_by_id[floatBitsToUint(tree_positions[position].w)];
+    tree_reaches[position] = reaches_by_id[floatBitsToUint(tree_positions_at(position).w)];
 }

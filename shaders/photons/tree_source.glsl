@@ -6,7 +6,7 @@
 #include "photons/float_keys.glsl"
 #pragma binding texel source
 #pragma binding texel range_rows
-#pragma binding readonly vec4 scales
+#pragma binding texel scales
 #pragma binding writeonly vec4 target
 #pragma binding coherent TreeNode tree_nodes
 

@@ -31,7 +31,7 @@ void meet_payload(uint lane, float weight) {
 #define HAS_PAYLOAD
 #include "photons/stream_members.glsl"
 #include "photons/take_turns.glsl"
-#pragma binding readonly vec4 radii
+#pragma binding texel radii
 #pragma binding writeonly vec4 diffused_power
 
 layout(push_constant) uniform Push { GatherSettings settings; };
@@ -42,7 +42,7 @@ void main() {
         bool has_photon = take_turn(settings, batch, position);
         take_query(position, settings.period, settings.flatness);
         my_power = tree_power_at(position).rgb;
-        my_r2 = radii[position].x;
+        my_r2 = radii_at(position).x;
         power_sum = vec3(0.0);
         weight_sum = 0.0;
         bool is_met = stream_members(settings, has_photon && my_r2 > 0.0, vec4(my_r2, 0.0, 0.0, 0.0));

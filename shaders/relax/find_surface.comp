@@ -6,10 +6,10 @@
 #include "shared/math.glsl"
 #include "shared/relax.h"
 #include "scene/closest_point.glsl"
-#pragma binding readonly vec4 tree_positions
-#pragma binding readonly vec4 tree_normals
-#pragma binding readonly vec4 power_object
-#pragma binding readonly vec4 radii
+#pragma binding texel tree_positions
+#pragma binding texel tree_normals
+#pragma binding texel power_object
+#pragma binding texel radii
 #pragma binding writeonly uint photon_triangles
 
 layout(push_constant) uniform Push { MoveSettings settings; };
@@ -21,11 +21,11 @@ const float ROUNDING = 1e-5;
 void main() {
     bool valid = gl_GlobalInvocationID.x < settings.count;
     uint position = settings.first + min(gl_GlobalInvocationID.x, settings.count - 1u);
-    vec4 photon = tree_positions[position];
-    vec3 normal = tree_normals[position].xyz;
-    uint object = floatBitsToUint(power_object[floatBitsToUint(photon.w)].w);
+    vec4 photon = tree_positions_at(position);
+    vec3 normal = tree_normals_at(position).xyz;
+    uint object = floatBitsToUint(power_object_at(floatBitsToUint(photon.w)).w);
     vec3 size = abs(photon.xyz);
-    float reach = max(SURFACE_SHARE * sqrt(radii[position].x), ROUNDING * max(size.x, max(size.y, size.z)));
+    float reach = max(SURFACE_SHARE * sqrt(radii_at(position).x), ROUNDING * max(size.x, max(size.y, size.z)));
     Closest front = Closest(reach * reach, NO_TRIANGLE, photon.xyz, vec3(0.0), false);
     find_closest(valid, Sought(photon.xyz, normal, 0.0, object), front);
     Closest back = Closest(front.distance2, NO_TRIANGLE, photon.xyz, vec3(0.0), false);

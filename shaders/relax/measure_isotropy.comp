@@ -35,7 +35,7 @@ void meet_payload(uint lane, float weight) {
 #define HAS_PAYLOAD
 #include "photons/stream_members.glsl"
 #include "photons/take_turns.glsl"
-#pragma binding readonly vec4 radii
+#pragma binding texel radii
 #pragma binding writeonly float axis_ratios
 
 layout(push_constant) uniform Push { GatherSettings settings; };
@@ -59,7 +59,7 @@ void main() {
         vec4 point = query_points_at(position);
         my_position = point.xyz;
         build_basis(my_normal, my_tangent, my_bitangent);
-        vec4 radius = radii[position];
+        vec4 radius = radii_at(position);
         bool has_ratio = has_photon && radius.w > 1.0 && radius.x > 0.0;
         member_sum = 0.0;
         offset_sum = vec2(0.0);

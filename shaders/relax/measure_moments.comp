@@ -25,7 +25,7 @@ void accumulate(Candidate other, float weight) {
 #include "photons/stream_members.glsl"
 #include "photons/take_turns.glsl"
 #include "relax/write_constraint.glsl"
-#pragma binding readonly vec4 radii
+#pragma binding texel radii
 #pragma binding writeonly vec4 offsets
 #pragma binding writeonly vec4 member_radii
 
@@ -68,7 +68,7 @@ void main() {
         bool has_photon = take_turn(settings.gather, batch, position);
         take_query(position, settings.gather.period, settings.gather.flatness);
         set_tangents();
-        vec4 radius = radii[position];
+        vec4 radius = radii_at(position);
         offset_sum = vec2(0.0);
         square_sum = vec3(0.0);
         bool is_met = stream_members(settings.gather, has_photon && radius.x > 0.0, radius);

@@ -10,8 +10,8 @@
 #define ONE_QUERY
 #include "photons/visit_tiles.glsl"
 #include "relax/write_constraint.glsl"
-#pragma binding readonly vec4 offsets
-#pragma binding readonly vec4 member_radii
+#pragma binding texel offsets
+#pragma binding texel member_radii
 #pragma binding writeonly uint unanswered
 #pragma binding readonly uvec2 singles
 #pragma binding coherent uint saved_lists
@@ -180,9 +180,9 @@ void main() {
     my_position = position;
     take_query(position, settings.gather.period, settings.gather.flatness);
     set_tangents();
-    vec4 own = offsets[position];
+    vec4 own = offsets_at(position);
     vec2 mean = project_vector(own.xyz);
-    my_r2 = member_radii[position].x;
+    my_r2 = member_radii_at(position).x;
     float r = sqrt(my_r2);
     float size = max(abs(mean.x), abs(mean.y));
     my_direction = size > 0.0 ? normalize(mean / size) : vec2(0.0);

@@ -25,7 +25,7 @@ void meet_payload(uint lane, float weight) {
 #include "photons/stream_members.glsl"
 #include "photons/take_turns.glsl"
 #include "relax/write_constraint.glsl"
-#pragma binding readonly vec4 member_radii
+#pragma binding texel member_radii
 
 layout(push_constant) uniform Push { DescribeSettings settings; };
 
@@ -38,7 +38,7 @@ void main() {
         bool has_photon = take_turn(settings.gather, batch, position);
         take_query(position, settings.gather.period, settings.gather.flatness);
         set_tangents();
-        vec4 found = member_radii[position];
+        vec4 found = member_radii_at(position);
         vec4 own = offsets_at(position);
         tensor_sum = vec3(0.0);
         // The photon meets itself among its members, with full weight. All in one place: no offset.

@@ -9,10 +9,10 @@
 #include "shared/relax.h"
 #include "photons/same_surface.glsl"
 #include "scene/closest_point.glsl"
-#pragma binding readonly vec4 tree_positions_before
+#pragma binding texel tree_positions_before
 #pragma binding writeonly vec4 tree_positions_after
-#pragma binding readonly vec4 moves
-#pragma binding readonly vec4 power_object
+#pragma binding texel moves
+#pragma binding texel power_object
 #pragma binding texel shading_normals
 #pragma binding coherent vec4 tree_normals
 #pragma binding coherent uint photon_triangles
@@ -36,8 +36,8 @@ vec3 turn_into_plane(vec3 v, vec3 normal) {
 void main() {
     bool valid = gl_GlobalInvocationID.x < settings.count;
     uint position = settings.first + min(gl_GlobalInvocationID.x, settings.count - 1u);
-    vec4 photon = tree_positions_before[position];
-    vec3 move = moves[position].xyz;
+    vec4 photon = tree_positions_before_at(position);
+    vec3 move = moves_at(position).xyz;
     vec3 landing = photon.xyz + move;
 #ifdef HAS_SURFACE
     uint packed = photon_triangles[position];
@@ -45,7 +45,7 @@ void main() {
     bool has_triangle = valid && triangle != NO_TRIANGLE;
     float side = (packed & BACK_SIDE) != 0u ? -1.0 : 1.0;
     vec4 old_normal = tree_normals[position];
-    uint object = floatBitsToUint(power_object[floatBitsToUint(photon.w)].w);
+    uint object = floatBitsToUint(power_object_at(floatBitsToUint(photon.w)).w);
     Sought sought = Sought(landing, side * old_normal.xyz, SAME_SURFACE_COSINE, object);
     uint texel = floatBitsToUint(geometry_at(0u).x) + 3u * (has_triangle ? triangle : 0u);
     // Where the photon came from is that near; its own triangle is preferred to others as near.

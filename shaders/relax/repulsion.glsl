@@ -4,8 +4,8 @@
 #include "shared/random.h"
 #include "shared/relax.h"
 #include "relax/tangent_plane.glsl"
-#pragma binding readonly vec4 constraint_along
-#pragma binding readonly vec4 constraint_across
+#pragma binding texel constraint_along
+#pragma binding texel constraint_across
 
 layout(push_constant) uniform Push { RepelSettings settings; };
 
@@ -49,8 +49,8 @@ struct Reach {
 
 vec3 constrain_move(vec3 f, uint position) {
 #ifdef CONSTRAINED
-    vec4 along = constraint_along[position];
-    vec4 across = constraint_across[position];
+    vec4 along = constraint_along_at(position);
+    vec4 across = constraint_across_at(position);
     return along.xyz * ((1.0 - along.w) * dot(along.xyz, f)) + across.xyz * ((1.0 - across.w) * dot(across.xyz, f));
 #else
     return f;

@@ -3,8 +3,8 @@
 // Outputs: move_sums (x Σ |move|/r, y largest |move|/r, z Σ pressure, w Σ |move|), one a run.
 #include "shared/prelude.glsl"
 #include "shared/relax.h"
-#pragma binding readonly vec4 moves
-#pragma binding readonly vec4 radii
+#pragma binding texel moves
+#pragma binding texel radii
 #pragma binding writeonly vec4 move_sums
 
 layout(push_constant) uniform Push { MoveSettings settings; };
@@ -14,9 +14,9 @@ void main() {
     if (run >= settings.count) return;
     vec4 sums = vec4(0.0);
     for (uint i = run * SUM_RUN; i < min((run + 1u) * SUM_RUN, settings.photon_count); ++i) {
-        vec4 move = moves[i];
+        vec4 move = moves_at(i);
         float size = sqrt(dot(move.xyz, move.xyz));
-        float r2 = radii[i].x;
+        float r2 = radii_at(i).x;
         float share = r2 > 0.0 ? size / sqrt(r2) : 0.0;
         sums = vec4(sums.x + share, max(sums.y, share), sums.z + move.w, sums.w + size);
     }

@@ -4,8 +4,8 @@
 #include "shared/prelude.glsl"
 #include "shared/trace.h"
 #pragma binding readonly PathSummary summaries
-#pragma binding readonly vec4 deposited_flux
-#pragma binding readonly vec4 lost_flux
+#pragma binding texel deposited_flux
+#pragma binding texel lost_flux
 #pragma binding readonly LightEmission emitters
 #pragma binding writeonly BalanceSum balance
 
@@ -22,9 +22,9 @@ void main() {
                            outcome == OUTCOME_RECEIVED);
         if (outcome == OUTCOME_UNFINISHED) sum.emitted.w += 1.0;
         sum.emitted.rgb += emitters[summaries[path].outcome >> 8u].flux_cumulative.rgb;
-        sum.deposited += deposited_flux[path];
-        if (outcome == OUTCOME_ESCAPED) sum.escaped += lost_flux[path];
-        if (outcome == OUTCOME_TRUNCATED) sum.truncated += lost_flux[path];
+        sum.deposited += deposited_flux_at(path);
+        if (outcome == OUTCOME_ESCAPED) sum.escaped += lost_flux_at(path);
+        if (outcome == OUTCOME_TRUNCATED) sum.truncated += lost_flux_at(path);
     }
     balance[block] = sum;
 }

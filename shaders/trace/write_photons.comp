@@ -8,9 +8,9 @@
 #pragma binding readonly PathSummary summaries
 #pragma binding readonly uvec2 path_offsets
 #pragma binding readonly uvec2 block_offsets
-#pragma binding readonly vec4 scratch_position
-#pragma binding readonly vec4 scratch_normal
-#pragma binding readonly vec4 scratch_power
+#pragma binding texel scratch_position
+#pragma binding texel scratch_normal
+#pragma binding texel scratch_power
 #pragma binding writeonly vec4 position_emitter
 #pragma binding writeonly vec4 normal_index
 #pragma binding writeonly vec4 power_object
@@ -29,10 +29,10 @@ uint locate_scratch(uint path, uint vertex) { return vertex * settings.chunk_siz
 void write_path(uint path, uint last, uint photon, uint first_vertex) {
     path_starts[photon] = first_vertex;
     for (uint vertex = 0u; vertex <= last; ++vertex) {
-        vec4 position = scratch_position[locate_scratch(path, vertex)];
+        vec4 position = scratch_position_at(locate_scratch(path, vertex));
         if (vertex == last) position.w = uintBitsToFloat(INTERACTION_END << 24u | (floatBitsToUint(position.w) & NO_OBJECT));
         path_vertices[first_vertex + vertex] = position;
-        path_normals[first_vertex + vertex] = scratch_normal[locate_scratch(path, vertex)];
+        path_normals[first_vertex + vertex] = scratch_normal_at(locate_scratch(path, vertex));
     }
 }
 #endif
@@ -47,12 +47,12 @@ void main() {
     uint light = emitters[summary.outcome >> 8u].first_row.y;
     for (uint vertex = 0u; vertex < summary.vertex_count && summary.photon_count > 0u; ++vertex) {
         uint at = locate_scratch(path, vertex);
-        vec4 power = scratch_power[at];
+        vec4 power = scratch_power_at(at);
         if (power.w == 0.0) continue;
-        vec4 position = scratch_position[at];
+        vec4 position = scratch_position_at(at);
         uint object = floatBitsToUint(position.w) & NO_OBJECT;
         position_emitter[photon] = vec4(position.xyz, uintBitsToFloat(light));
-        normal_index[photon] = vec4(scratch_normal[at].xyz, uintBitsToFloat(settings.first + path));
+        normal_index[photon] = vec4(scratch_normal_at(at).xyz, uintBitsToFloat(settings.first + path));
         power_object[photon] = vec4(power.rgb, uintBitsToFloat(object));
 #ifdef RECORD_PATHS
         write_path(path, vertex, photon, first_vertex);
