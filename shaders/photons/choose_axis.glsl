@@ -41,13 +41,13 @@ uint choose_sampled_axis(uint first, uint n) {
             row_hi[row] = max(row_hi[row], difference);
         }
     }
-    vec3 extent = (join_greatest(hi) - join_least(lo)) * scales[0].xyz;
+    vec3 extent = (join_greatest(hi) - join_least(lo)) * scales_at(0u).xyz;
     prefer(extent.x, 0u, greatest, axis);
     prefer(extent.y, 1u, greatest, axis);
     prefer(extent.z, 2u, greatest, axis);
     for (uint row = 0u; row < RANGE_ROWS; ++row)
         for (uint i = 0u; i < 4u; ++i) {
-            float scaled = (find_most(row_hi[row][i]) - find_least(row_lo[row][i])) * scales[1u + row][i];
+            float scaled = (find_most(row_hi[row][i]) - find_least(row_lo[row][i])) * scales_at(1u + row)[i];
             prefer(scaled, 3u + 4u * row + i, greatest, axis);
         }
     return axis;

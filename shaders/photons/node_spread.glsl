@@ -48,12 +48,12 @@ void prefer(float value, uint axis, inout float greatest, inout uint best) {
 uint choose_axis(Spread spread, out float greatest) {
     uint best = 0u;
     greatest = 0.0;
-    vec3 position = find_spread(spread) * scales[0].xyz * scales[0].xyz;
+    vec3 position = find_spread(spread) * scales_at(0u).xyz * scales_at(0u).xyz;
     prefer(position.x, 0u, greatest, best);
     prefer(position.y, 1u, greatest, best);
     prefer(position.z, 2u, greatest, best);
     for (uint row = 0u; row < RANGE_ROWS; ++row) {
-        vec4 range = find_row_spread(spread, row) * scales[1u + row] * scales[1u + row];
+        vec4 range = find_row_spread(spread, row) * scales_at(1u + row) * scales_at(1u + row);
         prefer(range.x, 3u + 4u * row, greatest, best);
         prefer(range.y, 4u + 4u * row, greatest, best);
         prefer(range.z, 5u + 4u * row, greatest, best);
