@@ -12,7 +12,7 @@
 namespace photonloupe::inspect {
 namespace {
 
-// Share of the mean square that keeps dark pixels from deciding alone (API).
+// Share of the mean square that keeps dark pixels from deciding alone (METHODS §12).
 constexpr double RELATIVE_FLOOR = 0.01;
 
 void require_finite(const Image& image, const char* which) {

@@ -21,7 +21,7 @@ constexpr float OFFSCREEN_STEP = 1.0f / 60.0f; // seconds a frame takes without 
 constexpr int MOST_PASSES = 256;               // of one frame without a window
 constexpr std::uint32_t QUIET_FRAMES = 3;      // until hover and layout have settled after input
 constexpr std::size_t MOST_STATISTICS = 10'000;
-// While a window is open dispatches stay under 15 ms (STUDIO): chunks aim lower, for they vary.
+// While a window is open dispatches stay under 15 ms: chunks aim lower, for they vary.
 constexpr double WATCHED_CHUNK_MILLISECONDS = 8.0;
 constexpr std::uint32_t SMALLEST_SIDE = 64, LARGEST_SIDE = 8192;
 

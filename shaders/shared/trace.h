@@ -7,7 +7,7 @@
 
 SHARED_BEGIN
 
-// Which deposits become photons (METHODS: L S+ D, at least one bounce of any kind, also direct hits).
+// Which deposits become photons (METHODS §1: L S+ D, at least one bounce of any kind, also direct hits).
 const uint STORE_CAUSTIC = 0u;
 const uint STORE_INDIRECT = 1u;
 const uint STORE_ALL = 2u;

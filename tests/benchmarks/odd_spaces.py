@@ -52,7 +52,7 @@ class Deadline:
 
 
 def find_beta(photons: pl.PhotonMap, deadline: Deadline) -> object:
-    """β of section 5.2."""
+    """β of [SJL15] section 5.2."""
     return pl.optimal_beta(photons, progress=deadline)
 
 

@@ -111,7 +111,7 @@ def print_others(stripe: Stripe, seeds: range) -> None:
 
 
 def print_beta(stripe: Stripe) -> None:
-    """Print β after section 5.2 for both spaces, first seed."""
+    """Print β after [SJL15] section 5.2 for both spaces, first seed."""
     for emission in EMISSIONS:
         for parameters in ("primal", "ppca"):
             photons = trace(stripe.name, stripe.photons, emission, 1)

@@ -30,7 +30,7 @@ PATIENCE = 120.0  # s that the background work is waited for
 PLOTS, STEPS = 20, 20
 FEW, MANY = 250, 100_000  # curves
 TURN = 400  # reports of the mouse that bring it round
-# STUDIO: share of frames under 100 ms; queries; plots.
+# Goals: share of frames under 100 ms; queries; plots.
 FRAME_LIMIT, FRAME_SHARE, QUERY_LIMIT = 100.0, 0.95, 50.0
 PLOT_LIMITS = {FEW: 10.0, MANY: 150.0}
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run of a script is told, and the limits it keeps (SCRIPT, parallel loops).
+// What a run of a script is told, and the limits it keeps (docs/script.md, Loops over photons).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gives every name of a photon loop's body its role (SCRIPT, parallel loops).
+// Gives every name of a photon loop's body its role (docs/script.md, Loops over photons).
 #include <algorithm>
 
 #include "script/plan/plan_loop.h"

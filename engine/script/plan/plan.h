@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decides which photon loops run as compute passes, and what each reads, writes and reduces (SCRIPT, parallel rules).
+// Decides which photon loops run as compute passes, and what each reads, writes and reduces (docs/script.md,
+// Loops over photons).
 #pragma once
 
 #include <map>
