@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,11 +12,9 @@ from numpy.typing import NDArray
 from photonloupe import _engine
 from photonloupe.checks import check_count, check_number
 from photonloupe.device import open_device
+from photonloupe.device_photons import DevicePhotons
 from photonloupe.errors import ArgumentError
 from photonloupe.progress import ProgressLike, follow_progress
-
-if TYPE_CHECKING:
-    from photonloupe.photons import PhotonMap
 
 BINS = 64
 LARGEST_K = 998
@@ -52,7 +49,9 @@ class OptimalBeta(float):
     t_beta: float
 
 
-def optimal_beta(photons: PhotonMap, k: int = 100, clip: float = 0.05, *, progress: ProgressLike = None) -> OptimalBeta:
+def optimal_beta(
+    photons: DevicePhotons, k: int = 100, clip: float = 0.05, *, progress: ProgressLike = None
+) -> OptimalBeta:
     """Find the β that clips the neighborhoods of only a share `clip` of the photons ([SJL15] section 5.2, eqs. 5, 6).
 
     Parameters

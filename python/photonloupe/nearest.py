@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,13 +12,11 @@ from numpy.typing import ArrayLike, NDArray
 from photonloupe import _engine
 from photonloupe.checks import check_choice, check_count, check_number, check_rows, check_vectors
 from photonloupe.device import open_device
+from photonloupe.device_photons import DevicePhotons
 from photonloupe.errors import ArgumentError
 from photonloupe.parameters import FIRST_DIMENSION, Parameter
 from photonloupe.progress import ProgressLike, follow_progress
 from photonloupe.relaxing import check_beta
-
-if TYPE_CHECKING:
-    from photonloupe.photons import PhotonMap
 
 MAX_NEIGHBORS = 1000
 SPACES = ("world", "parameter", "constrained")
@@ -27,7 +25,7 @@ Found = tuple[NDArray[np.int32], NDArray[np.float32]]
 
 
 def find_neighbors(
-    photons: PhotonMap,
+    photons: DevicePhotons,
     points: ArrayLike,
     k: int,
     *,
@@ -55,7 +53,7 @@ def find_neighbors(
 
 
 def _read_query(
-    photons: PhotonMap, points: ArrayLike, space: str
+    photons: DevicePhotons, points: ArrayLike, space: str
 ) -> tuple[NDArray[np.uint32] | None, NDArray[np.float64] | None]:
     """Tell ids from points, and check either."""
     width = len(photons.parameter_names) if space == "parameter" else 3
@@ -74,7 +72,7 @@ def _read_query(
 
 
 def _check_layer(
-    photons: PhotonMap,
+    photons: DevicePhotons,
     has_ids: bool,
     beta: float | str,
     center: int | None,

@@ -5,24 +5,22 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import Any, Self, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from photonloupe import queries
 from photonloupe.device import open_device
+from photonloupe.device_photons import DevicePhotons
 from photonloupe.nearest import find_neighbors
-from photonloupe.photon_columns import Float3, PhotonColumns
+from photonloupe.photon_columns import Float3
 from photonloupe.progress import ProgressLike
 from photonloupe.relaxing import RelaxKeywords, relax_photons
 from photonloupe.scripting import Script, ScriptRun, run_script
 
-if TYPE_CHECKING:
-    from photonloupe.photons import PhotonMap
 
-
-class PhotonStages(PhotonColumns):
+class PhotonStages(DevicePhotons):
     """The stages of the main flow that begin with photons."""
 
     def neighbors(
@@ -80,9 +78,7 @@ class PhotonStages(PhotonColumns):
         >>> photons.neighbors([1], 3)[0].tolist()
         [[0, 2, -1]]
         """
-        return find_neighbors(
-            self._as_map(), points, k, space=space, beta=beta, center=center, ranges=ranges, progress=progress
-        )
+        return find_neighbors(self, points, k, space=space, beta=beta, center=center, ranges=ranges, progress=progress)
 
     def irradiance(
         self,
@@ -116,11 +112,10 @@ class PhotonStages(PhotonColumns):
         ArgumentError
             If a point or normal is not finite, a normal is zero, or k or kernel is not offered.
         """
-        photons = self._as_map()
-        k = queries.choose_k(photons.settings) if k is None else k
-        device = open_device(photons.device)
+        k = queries.choose_k(self.settings) if k is None else k
+        device = open_device(self.device)
         return queries.estimate_irradiance(
-            device, photons.upload(), points, normals, k=k, kernel=kernel, progress=progress
+            device, self.upload(), points, normals, k=k, kernel=kernel, progress=progress
         )
 
     def run_script(
@@ -178,11 +173,9 @@ class PhotonStages(PhotonColumns):
         >>> run.parameter_names, photons.parameters.shape == (len(photons), 1)
         (('height',), True)
         """
-        return run_script(
-            self._as_map(), script, values, keep=keep, seed=seed, limits=limits, progress=progress, **exposed
-        )
+        return run_script(self, script, values, keep=keep, seed=seed, limits=limits, progress=progress, **exposed)
 
-    def constrain(self, *, progress: ProgressLike = None, **settings: Unpack[RelaxKeywords]) -> PhotonMap:
+    def constrain(self, *, progress: ProgressLike = None, **settings: Unpack[RelaxKeywords]) -> Self:
         """Measure which way each photon may move, without moving any (METHODS section 5).
 
         Parameters
@@ -197,7 +190,7 @@ class PhotonStages(PhotonColumns):
         PhotonMap
             The same photons with `constraint_basis`, `constraint_weights`, `gradient`, `one_sidedness`.
         """
-        return relax_photons(self._as_map(), progress, **{**settings, "steps": 0})
+        return relax_photons(self, progress, **{**settings, "steps": 0})
 
     def relax(
         self,
@@ -206,7 +199,7 @@ class PhotonStages(PhotonColumns):
         *,
         progress: ProgressLike = None,
         **settings: Unpack[RelaxKeywords],
-    ) -> PhotonMap:
+    ) -> Self:
         """Move the photons apart until the noise is gone, as far as their constraints allow ([SJ09], METHODS 3 to 5).
 
         With nothing said, the settings with the least error of all measured (docs/relaxation.md).
@@ -262,7 +255,4 @@ class PhotonStages(PhotonColumns):
         >>> len(relaxed) == len(photons)
         True
         """
-        return relax_photons(self._as_map(), progress, **{**settings, "steps": steps, "neighbors": neighbors})
-
-    def _as_map(self) -> PhotonMap:
-        raise NotImplementedError
+        return relax_photons(self, progress, **{**settings, "steps": steps, "neighbors": neighbors})

@@ -6,21 +6,22 @@ from __future__ import annotations
 import logging
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, TypedDict, Unpack
+from typing import Any, Generic, TypedDict, TypeVar, Unpack
 
 import numpy as np
 
 from photonloupe import _engine
 from photonloupe.checks import check_choice, check_count, check_number
 from photonloupe.device import open_device
+from photonloupe.device_photons import DevicePhotons
 from photonloupe.errors import ArgumentError
 from photonloupe.isotropy import optimal_beta
 from photonloupe.progress import ProgressLike, follow_progress
 
-if TYPE_CHECKING:
-    from photonloupe.photons import PhotonMap
-
 LOG = logging.getLogger("photonloupe")
+
+# What is relaxed: a photon map, which relaxing gives back.
+PhotonsT = TypeVar("PhotonsT", bound=DevicePhotons)
 
 SPACES = ("world", "parameter")
 DESCRIPTORS = ("none", "gradient", "pca", "tensor", "split")
@@ -61,7 +62,7 @@ def find_thresholds(descriptor: str, k: int) -> tuple[float, float]:
     return {"tensor": TENSOR_THRESHOLDS, "split": SPLIT_THRESHOLDS}.get(descriptor, GRADIENT_THRESHOLDS)
 
 
-def check_beta(value: Any, photons: PhotonMap, progress: ProgressLike = None) -> float:
+def check_beta(value: Any, photons: DevicePhotons, progress: ProgressLike = None) -> float:
     """Return β as a number, found from the map when it is ``"auto"``."""
     if isinstance(value, str):
         check_choice("beta", value, ("auto",))
@@ -94,7 +95,7 @@ class AllRelaxKeywords(RelaxKeywords, total=False):
 
 
 def check_settings(
-    photons: PhotonMap,
+    photons: DevicePhotons,
     progress: ProgressLike,
     *,
     steps: int | None = None,
@@ -151,7 +152,7 @@ def check_settings(
     }
 
 
-def _choose_beta(beta: Any, is_needed: bool, photons: PhotonMap, progress: ProgressLike) -> float:
+def _choose_beta(beta: Any, is_needed: bool, photons: DevicePhotons, progress: ProgressLike) -> float:
     """β where layers decide, 0 where they don't; a wrong one is refused all the same."""
     if beta == "auto" and not is_needed:
         return 0.0
@@ -200,7 +201,7 @@ def _check_period(value: Sequence[float] | None) -> list[float]:
     return [check_number("period", entry, 0.0, 1e30) for entry in _read_numbers("period", value, 3)]
 
 
-class Relaxation:
+class Relaxation(Generic[PhotonsT]):
     """A relaxation that is stepped by hand.
 
     Making one measures the constraint; `step` moves the photons once. Keywords are those of `PhotonMap.relax`.
@@ -223,7 +224,7 @@ class Relaxation:
     """
 
     def __init__(
-        self, photons: PhotonMap, *, progress: ProgressLike = None, **settings: Unpack[AllRelaxKeywords]
+        self, photons: PhotonsT, *, progress: ProgressLike = None, **settings: Unpack[AllRelaxKeywords]
     ) -> None:
         self._source = photons
         self._settings = check_settings(photons, progress, **settings)
@@ -291,7 +292,7 @@ class Relaxation:
         return self._describe(self._native.read()[2])
 
     @property
-    def photons(self) -> PhotonMap:
+    def photons(self) -> PhotonsT:
         """The map as it is now, with constraint, drift and pressure."""
         native, state, off_surface = self._native.read()
         columns = {name: np.asarray(values) for name, values in state.items()}
@@ -307,7 +308,7 @@ class Relaxation:
         }
 
 
-def relax_photons(photons: PhotonMap, progress: ProgressLike, **settings: Unpack[AllRelaxKeywords]) -> PhotonMap:
+def relax_photons(photons: PhotonsT, progress: ProgressLike, **settings: Unpack[AllRelaxKeywords]) -> PhotonsT:
     """Run a whole relaxation; see `PhotonMap.relax`."""
     relaxation = Relaxation(photons, progress=progress, **settings)
     for _ in range(relaxation.steps):

@@ -7,7 +7,7 @@ import os
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,12 +15,10 @@ from numpy.typing import NDArray
 from photonloupe import _engine
 from photonloupe.checks import check_count, check_number
 from photonloupe.device import open_device
+from photonloupe.device_photons import DevicePhotons
 from photonloupe.errors import ArgumentError, FileFormatError, ScriptError
 from photonloupe.parameters import Parameter
 from photonloupe.progress import ProgressLike, follow_progress
-
-if TYPE_CHECKING:
-    from photonloupe.photons import PhotonMap
 
 SUFFIX = ".photon"
 # Limits of a run (docs/script.md): steps of unbounded loops a photon, photons that may run out of them, seconds a pass.
@@ -232,7 +230,7 @@ def _check_limits(limits: Mapping[str, float] | None) -> dict[str, float]:
 
 
 def run_script(
-    photons: PhotonMap,
+    photons: DevicePhotons,
     script: str | os.PathLike[str] | Script,
     values: Mapping[str, Any] | None,
     *,

@@ -8,13 +8,12 @@ with its source: `program.h` lies below all rooms of the language and `compile_s
 from __future__ import annotations
 
 import re
-from graphlib import CycleError, TopologicalSorter
-from itertools import pairwise
 from pathlib import Path
 
 import pytest
 
 from conftest import SCENES
+from graph_cycles import name_cycle
 
 ENGINE = SCENES.parent / "engine"
 
@@ -44,16 +43,7 @@ def find_cycle(includes: Includes) -> str:
             step = find_room(file, folders), find_room(other, folders)
             if step[0] != step[1]:
                 reasons.setdefault(step, f"{file} includes {other}")
-    graph: dict[str, set[str]] = {}
-    for user, used in reasons:
-        graph.setdefault(user, set()).add(used)
-    try:
-        TopologicalSorter(graph).prepare()
-    except CycleError as error:
-        rooms = error.args[1][::-1]  # each uses the next
-        steps = [reasons[step] for step in pairwise(rooms)]
-        return " → ".join(rooms) + ": " + "; ".join(steps)
-    return ""
+    return name_cycle(reasons)
 
 
 def test_no_cycle_of_rooms() -> None:

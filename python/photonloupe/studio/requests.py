@@ -9,9 +9,12 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import photonloupe as pl
 from photonloupe import _engine
 from photonloupe.errors import ArgumentError, PhotonLoupeError
+from photonloupe.inspect.parallel_axes import Axis
+from photonloupe.inspect.parallel_coordinates import parallel_coordinates
+from photonloupe.scene import Scene, load_scene
+from photonloupe.scripting import Script, compile_script
 from photonloupe.studio.stages import Stages, describe_error
 
 if TYPE_CHECKING:
@@ -97,11 +100,11 @@ class Requests:
             kinds = ", ".join((*SCENES, SCRIPT, MAP, SESSION, *IMAGES))
             raise ArgumentError(f"{path} is none of the files the studio opens: {kinds}")
 
-    def open_scene(self, scene: pl.Scene | str | os.PathLike[str], photons: int | None) -> None:
+    def open_scene(self, scene: Scene | str | os.PathLike[str], photons: int | None) -> None:
         """Open a scene and trace it."""
-        path = str(Path(scene.path if isinstance(scene, pl.Scene) else scene).absolute())
+        path = str(Path(scene.path if isinstance(scene, Scene) else scene).absolute())
         # What is wrong with it is said before the old one goes.
-        self._stages.open_scene(scene if isinstance(scene, pl.Scene) else pl.load_scene(path))
+        self._stages.open_scene(scene if isinstance(scene, Scene) else load_scene(path))
         self._native.forget_work("trace")  # the file may have changed
         trace: dict[str, Any] = {"scene": path, "map": ""}
         if photons is not None:
@@ -112,10 +115,10 @@ class Requests:
         self._change("open scene", change)
         self._watch(path)
 
-    def open_script(self, script: str | os.PathLike[str] | pl.Script, *, runs: bool) -> None:
+    def open_script(self, script: str | os.PathLike[str] | Script, *, runs: bool) -> None:
         """Take a script into the editor, and run it."""
         path = ""
-        if isinstance(script, pl.Script):
+        if isinstance(script, Script):
             text = script.text
         elif isinstance(script, os.PathLike) or (script.endswith(SCRIPT) and "\n" not in script):
             path = str(Path(script).absolute())
@@ -125,7 +128,7 @@ class Requests:
             text = script
         change: dict[str, Any] = {"path": path, "text": text, "values": {}}
         if runs:
-            pl.compile_script(pl.Script(text.encode("utf-8", "surrogatepass"), path or "script")).require()
+            compile_script(Script(text.encode("utf-8", "surrogatepass"), path or "script")).require()
             change["ran"] = text
         self._change("open script", {"script": change})
 
@@ -146,7 +149,7 @@ class Requests:
         if photons is None or not state["axes"]:
             raise ArgumentError("there is nothing to plot yet; open a scene and draw a frame")
         axes = [
-            pl.inspect.Axis(
+            Axis(
                 axis["name"],
                 low=None if axis["low"] == axis["high"] else axis["low"],
                 high=None if axis["low"] == axis["high"] else axis["high"],
@@ -158,7 +161,7 @@ class Requests:
             for axis in state["axes"]
         ]
         ids = self._native.loupe_ids() if state["source"] == "loupe" else None
-        plot = pl.inspect.parallel_coordinates(photons, axes, selection=ids, size=size, tension=state["tension"])
+        plot = parallel_coordinates(photons, axes, selection=ids, size=size, tension=state["tension"])
         plot.save_svg(path)
 
     def watch_files(self) -> bool:

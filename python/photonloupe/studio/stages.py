@@ -12,12 +12,23 @@ from typing import Any
 
 import numpy as np
 
-import photonloupe as pl
 from photonloupe import _engine
+from photonloupe.camera import Camera
 from photonloupe.columns import PATH_NAMES
 from photonloupe.device import Device
-from photonloupe.errors import ArgumentError, PhotonLoupeError
+from photonloupe.errors import ArgumentError, Cancelled, PhotonLoupeError
+from photonloupe.image import Image, load_image
+from photonloupe.inspect.error_map import error_map
+from photonloupe.isotropy import optimal_beta
+from photonloupe.loading import load_photons
+from photonloupe.metrics import compare_images
+from photonloupe.photons import PhotonMap
+from photonloupe.relaxing import Relaxation
+from photonloupe.rendering import render
+from photonloupe.scene import Scene, load_scene
+from photonloupe.scripting import Histogram, Script, ScriptRun
 from photonloupe.studio.spread import measure_spread
+from photonloupe.tracing import trace_photons
 
 Progress = Callable[[str, float], bool]
 
@@ -35,19 +46,19 @@ class Stages:
     def __init__(self, device: Device, native: _engine.Studio) -> None:
         self._device = device
         self._native = native
-        self.scene: pl.Scene | None = None
-        self.traced: pl.PhotonMap | None = None
-        self.photons: pl.PhotonMap | None = None  # with what the script gave them
-        self._spare: pl.PhotonMap | None = None
-        self.relaxed: pl.PhotonMap | None = None
-        self.image: pl.Image | None = None
-        self._opened: pl.Scene | None = None  # takes the scene's place with the next trace
-        self._relaxation: pl.Relaxation | None = None
+        self.scene: Scene | None = None
+        self.traced: PhotonMap | None = None
+        self.photons: PhotonMap | None = None  # with what the script gave them
+        self._spare: PhotonMap | None = None
+        self.relaxed: PhotonMap | None = None
+        self.image: Image | None = None
+        self._opened: Scene | None = None  # takes the scene's place with the next trace
+        self._relaxation: Relaxation[PhotonMap] | None = None
         self._relaxation_key = ""
         self._rows: list[tuple[float, float, float, float]] = []
         self._milliseconds: dict[str, float] = {}
 
-    def open_scene(self, scene: pl.Scene) -> None:
+    def open_scene(self, scene: Scene) -> None:
         """Take a scene's place when photons are traced next; from any thread."""
         self._opened = scene
 
@@ -72,8 +83,8 @@ class Stages:
         opened, self._opened = self._opened, None
         self.scene = opened or self.scene
         if self.scene is None or str(Path(self.scene.path).absolute()) != path:
-            self.scene = pl.load_scene(path)
-        photons = pl.trace_photons(
+            self.scene = load_scene(path)
+        photons = trace_photons(
             self.scene,
             settings["photons"],
             seed=settings["seed"],
@@ -87,7 +98,7 @@ class Stages:
         self._take_photons(photons.select(np.arange(len(photons))))
 
     def _load_map(self, settings: dict[str, Any], progress: Progress) -> None:
-        photons = pl.load_photons(settings["map"], device=self._device)
+        photons = load_photons(settings["map"], device=self._device)
         try:
             self.scene = photons.find_surface()
         except PhotonLoupeError as error:
@@ -95,7 +106,7 @@ class Stages:
             self._native.say(f"without its scene: {error}", False)
         self._take_photons(photons)
 
-    def _take_photons(self, photons: pl.PhotonMap) -> None:
+    def _take_photons(self, photons: PhotonMap) -> None:
         if len(photons) == 0:
             raise ArgumentError("there are no photons to look at; trace more, or another store")
         try:
@@ -107,7 +118,7 @@ class Stages:
         self._spare = None
         self._show(photons, has_same_paths=False)
 
-    def _show(self, photons: pl.PhotonMap, *, has_same_paths: bool) -> None:
+    def _show(self, photons: PhotonMap, *, has_same_paths: bool) -> None:
         """Let the interface show photons, their trees built."""
         native = photons.upload()
         _engine.build_view_trees(self._device._native, native)
@@ -117,7 +128,7 @@ class Stages:
         self._relaxation_key = ""
         self._native.deliver_photons(None if self.scene is None else self.scene._native, native, has_same_paths)
 
-    def _take_spare(self) -> pl.PhotonMap:
+    def _take_spare(self) -> PhotonMap:
         """Return a copy of the traced photons that is not shown."""
         assert self.traced is not None
         if self._spare is None:
@@ -161,7 +172,7 @@ class Stages:
         made = settings.pop("made")
         key = settings.pop("settings_key")
         if self._relaxation is None or key != self._relaxation_key or self._relaxation.step_count > made:
-            self._relaxation = pl.Relaxation(self.photons, progress=progress, **settings)
+            self._relaxation = Relaxation(self.photons, progress=progress, **settings)
             self._relaxation_key = key
             self._rows = []
         relaxation = self._relaxation
@@ -172,13 +183,13 @@ class Stages:
                 self._rows.append((row["mean_displacement"], row["mean_move"], low_frequency, noise))
                 self._native.deliver_steps(self._rows)
                 if not progress("relax", relaxation.step_count / made):
-                    raise pl.Cancelled("stopped on request")
-        except pl.Cancelled:
+                    raise Cancelled("stopped on request")
+        except Cancelled:
             self._show_relaxed(relaxation, stopped_at=relaxation.step_count)
             raise
         self._show_relaxed(relaxation, stopped_at=None)
 
-    def _show_relaxed(self, relaxation: pl.Relaxation, *, stopped_at: int | None) -> None:
+    def _show_relaxed(self, relaxation: Relaxation[PhotonMap], *, stopped_at: int | None) -> None:
         """Let the interface show the photons as far as they are relaxed; stopped half way, those steps stay."""
         self.relaxed = relaxation.photons
         native = self.relaxed.upload()
@@ -189,11 +200,11 @@ class Stages:
 
     def _measure_isotropy(self, settings: dict[str, Any], progress: Progress) -> None:
         assert self.photons is not None
-        beta = pl.optimal_beta(self.photons, progress=progress)
+        beta = optimal_beta(self.photons, progress=progress)
         self._native.deliver_isotropy(np.ascontiguousarray(beta.isotropy.values), float(beta), beta.t_beta)
         self._native.say(f"β = {float(beta):.4g} from t_β = {beta.t_beta:.4g}", False)
 
-    def _find_shown(self, settings: dict[str, Any]) -> pl.PhotonMap:
+    def _find_shown(self, settings: dict[str, Any]) -> PhotonMap:
         assert self.photons is not None
         return self.relaxed if settings["relaxed"] and self.relaxed is not None else self.photons
 
@@ -202,7 +213,7 @@ class Stages:
             raise PhotonLoupeError("rendering needs the scene the photons were traced in; open it")
         photons = self._find_shown(settings)
         camera = settings["camera"]
-        looks = pl.Camera(camera["position"], camera["target"], camera["up"], camera["yfov"])
+        looks = Camera(camera["position"], camera["target"], camera["up"], camera["yfov"])
         common: dict[str, Any] = {
             "camera": looks,
             "width": RENDER_SIZE[0],
@@ -212,22 +223,22 @@ class Stages:
             "device": self._device,
             "progress": progress,
         }
-        self.image = pl.render(self.scene, photons, **common)
+        self.image = render(self.scene, photons, **common)
         colors = None
         if "colors" in photons.recorded:
-            colors = np.ascontiguousarray(pl.render(self.scene, photons, mode="false-color", **common))
+            colors = np.ascontiguousarray(render(self.scene, photons, mode="false-color", **common))
         self._native.deliver_images(np.ascontiguousarray(self.image), colors)
 
     def _compare(self, settings: dict[str, Any], progress: Progress) -> None:
         if self.image is None:
             return
-        reference = pl.load_image(settings["path"])
+        reference = load_image(settings["path"])
         try:
-            difference = pl.compare_images(self.image, reference)
+            difference = compare_images(self.image, reference)
         except PhotonLoupeError:
             self._native.deliver_comparison(np.ascontiguousarray(reference), None, 0.0, 0.0, 0.0)
             raise
-        error = pl.inspect.error_map(self.image, reference).image
+        error = error_map(self.image, reference).image
         self._native.deliver_comparison(
             np.ascontiguousarray(reference),
             np.ascontiguousarray(error),
@@ -237,16 +248,16 @@ class Stages:
         )
 
 
-def _make_script(settings: dict[str, Any]) -> pl.Script:
+def _make_script(settings: dict[str, Any]) -> Script:
     name = Path(settings["path"]).name or "script"
-    return pl.Script(settings["text"].encode("utf-8", "surrogatepass"), name)
+    return Script(settings["text"].encode("utf-8", "surrogatepass"), name)
 
 
-def _list_exposed(script: pl.Script) -> set[str]:
+def _list_exposed(script: Script) -> set[str]:
     return {variable.name for variable in script.exposed}
 
 
-def _describe_histogram(name: str, histogram: pl.Histogram) -> dict[str, Any]:
+def _describe_histogram(name: str, histogram: Histogram) -> dict[str, Any]:
     return {
         "name": name,
         "low": float(histogram.edges[0]),
@@ -255,7 +266,7 @@ def _describe_histogram(name: str, histogram: pl.Histogram) -> dict[str, Any]:
     }
 
 
-def _describe_report(run: pl.ScriptRun) -> list[str]:
+def _describe_report(run: ScriptRun) -> list[str]:
     lines = [
         f"line {row['line']}: {row['kind']} loop" + (f", stopped: {row['stopped']}" if row["stopped"] else "")
         for row in run.report["passes"]
@@ -279,7 +290,7 @@ def read_job(settings: str) -> dict[str, Any]:
 
 def describe_error(error: BaseException) -> str:
     """Say in one line what went wrong."""
-    if isinstance(error, pl.Cancelled):
+    if isinstance(error, Cancelled):
         return "stopped on request; what was there stays"
     if isinstance(error, OSError):
         return f"{error.filename or 'a file'}: {error.strerror or os.strerror(error.errno or 0)}"
