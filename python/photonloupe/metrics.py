@@ -9,10 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from photonloupe import _engine
 from photonloupe.errors import ArgumentError
 
-# relMSE = mean((a - b)² / (b² + 0.01·mean(b)²)): the second term keeps dark pixels from deciding alone.
-_RELATIVE_FLOOR = 0.01
 # FLIP picks its exposures from the reference and ends the process where the brightest pixel is below 1.2e-7;
 # outside this range both images are scaled alike, which changes none of what it compares.
 _FLIP_RANGE = (1e-3, 1e6)
@@ -67,34 +66,39 @@ def compare_images(image: ArrayLike, reference: ArrayLike, *, linear: bool = Tru
     >>> round(pl.compare_images(gray + 0.1, gray).rmse, 6)
     0.1
     """
-    a, b = _check_pixels("the first image", image), _check_pixels("the reference", reference)
-    if a.shape != b.shape:
-        raise ArgumentError(
-            f"the images differ in size: {a.shape[1]} × {a.shape[0]} and {b.shape[1]} × {b.shape[0]} pixels"
-        )
-    squared = np.square(a - b)
-    floor = _RELATIVE_FLOOR * np.mean(b) ** 2
-    # 0/0 of a reference that is black everywhere counts as no error where there is none.
-    with np.errstate(divide="ignore", invalid="ignore"):
-        relative = np.where(squared > 0.0, squared / (np.square(b) + floor), 0.0)
-    error_map = _compute_flip(a, b, linear=linear)
+    a, b = check_pair(image, reference)
+    errors = _engine.map_errors(a, b, False, 0.0)
+    error_map = _compute_flip(a.astype(np.float64), b.astype(np.float64), linear=linear)
     return ImageDifference(
-        rmse=float(np.sqrt(squared.mean())),
-        relmse=float(relative.mean()),
+        rmse=float(errors["rmse"]),
+        relmse=float(errors["relmse"]),
         flip=float(error_map.mean(dtype=np.float64)),
         error_map=error_map,
     )
 
 
-def _check_pixels(name: str, image: ArrayLike) -> NDArray[np.float64]:
-    pixels = np.asarray(image, dtype=np.float64)
+def check_pair(image: ArrayLike, reference: ArrayLike) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Return two images of one size as finite (h, w, 3) float32, or raise `ArgumentError` saying what is wrong."""
+    a, b = _check_pixels("the image", image), _check_pixels("the reference", reference)
+    if a.shape != b.shape:
+        raise ArgumentError(
+            f"the images differ in size: {a.shape[1]} × {a.shape[0]} and {b.shape[1]} × {b.shape[0]} pixels"
+        )
+    return a, b
+
+
+def _check_pixels(name: str, image: ArrayLike) -> NDArray[np.float32]:
+    with np.errstate(over="ignore"):
+        pixels = np.ascontiguousarray(image, dtype=np.float32)
     if pixels.ndim != 3 or pixels.shape[2] != 3 or pixels.size == 0:
         raise ArgumentError(f"{name} must have shape (h, w, 3), not {pixels.shape}")
     finite = np.isfinite(pixels)
     if not finite.all():
         row, column, _ = np.unravel_index(int(np.argmin(finite)), pixels.shape)
         count = int(np.count_nonzero(~finite.all(axis=2)))
-        raise ArgumentError(f"{name} has {count} pixels that are not finite, the first at row {row}, column {column}")
+        raise ArgumentError(
+            f"{name} has {count} pixels that are not finite in 32 bits, the first at row {row}, column {column}"
+        )
     return pixels
 
 

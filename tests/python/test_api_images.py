@@ -103,6 +103,13 @@ def test_pixel_that_is_not_finite_is_named() -> None:
         pl.compare_images(bad, make_picture())
 
 
+def test_pixel_beyond_32_bits_is_named() -> None:
+    bright = make_picture().astype(np.float64)
+    bright[2, 1, 0] = 1e39
+    with pytest.raises(pl.ArgumentError, match="row 2, column 1"):
+        pl.compare_images(make_picture(), bright)
+
+
 def test_sizes_must_agree() -> None:
     with pytest.raises(pl.ArgumentError, match="size"):
         pl.compare_images(make_picture(), make_picture()[:-1])

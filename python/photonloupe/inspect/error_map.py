@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from photonloupe import _engine
 from photonloupe.checks import check_number
-from photonloupe.errors import ArgumentError, PhotonLoupeError
 from photonloupe.image import Image
+from photonloupe.metrics import check_pair
 
 _LARGEST = 1e30
 
@@ -67,17 +67,6 @@ def error_map(a: ArrayLike | Image, b: ArrayLike | Image, *, relative: bool = Fa
     >>> round(pl.inspect.error_map(gray + 0.25, gray).rmse, 6)
     0.25
     """
-    pixels = [_check_pixels(name, image) for name, image in (("a", a), ("b", b))]
-    full = check_number("full", full, 0.0, _LARGEST)
-    try:
-        row = _engine.map_errors(pixels[0], pixels[1], bool(relative), full)
-    except PhotonLoupeError as error:
-        raise ArgumentError(str(error)) from error
+    image, reference = check_pair(a, b)
+    row = _engine.map_errors(image, reference, bool(relative), check_number("full", full, 0.0, _LARGEST))
     return ErrorMap(image=Image(row.pop("pixels")), **row)
-
-
-def _check_pixels(name: str, image: ArrayLike | Image) -> NDArray[np.float32]:
-    pixels = np.ascontiguousarray(image, dtype=np.float32)
-    if pixels.ndim != 3 or pixels.shape[2] != 3 or pixels.size == 0:
-        raise ArgumentError(f"{name} must have shape (h, w, 3), not {pixels.shape}")
-    return pixels
