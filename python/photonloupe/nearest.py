@@ -16,10 +16,12 @@ from photonloupe.device_photons import DevicePhotons
 from photonloupe.errors import ArgumentError
 from photonloupe.parameters import FIRST_DIMENSION, Parameter
 from photonloupe.progress import ProgressLike, follow_progress
-from photonloupe.relaxing import check_beta
+from photonloupe.relax_settings import check_beta
 
 MAX_NEIGHBORS = 1000
 SPACES = ("world", "parameter", "constrained")
+# β of a layer that is looked at (METHODS section 4); relaxation has its own (relax_settings.py).
+DEFAULT_BETA = 3.0
 
 Found = tuple[NDArray[np.int32], NDArray[np.float32]]
 
@@ -30,7 +32,7 @@ def find_neighbors(
     k: int,
     *,
     space: str = "world",
-    beta: float | str = 3.0,
+    beta: float | str = DEFAULT_BETA,
     center: int | None = None,
     ranges: Mapping[int | str, tuple[float, float]] | None = None,
     progress: ProgressLike = None,

@@ -13,10 +13,11 @@ from numpy.typing import ArrayLike, NDArray
 from photonloupe import queries
 from photonloupe.device import open_device
 from photonloupe.device_photons import DevicePhotons
-from photonloupe.nearest import find_neighbors
+from photonloupe.nearest import DEFAULT_BETA, find_neighbors
 from photonloupe.photon_columns import Float3
 from photonloupe.progress import ProgressLike
-from photonloupe.relaxing import RelaxKeywords, relax_photons
+from photonloupe.relax_settings import RelaxKeywords
+from photonloupe.relaxing import relax_photons
 from photonloupe.scripting import Script, ScriptRun, run_script
 
 
@@ -29,7 +30,7 @@ class PhotonStages(DevicePhotons):
         k: int,
         *,
         space: str = "world",
-        beta: float | str = 3.0,
+        beta: float | str = DEFAULT_BETA,
         center: int | None = None,
         ranges: Mapping[int | str, tuple[float, float]] | None = None,
         progress: ProgressLike = None,
@@ -234,6 +235,8 @@ class PhotonStages(DevicePhotons):
             (faster; its error is in docs/relaxation.md).
         surface
             ``"auto"``: photons return to the surface they lie on; ``"tangent"``: they move in their tangent planes.
+        period
+            Lengths (3,) in m after which space repeats along x, y and z, 0 where it does not; None: nowhere.
         progress
             True for a bar, or a callback ``(stage, fraction)`` that returns False to stop.
 

@@ -11,13 +11,14 @@ import numpy as np
 import pytest
 
 import photonloupe as pl
-from photonloupe.relaxing import SEARCHES
+from photonloupe.cli import build_parser
+from photonloupe.relax_settings import DEFAULTS, MAX_NEIGHBORS, SEARCHES, AllRelaxKeywords
 from test_api_cli import SMALL, check_message, run
 
 ALL_OPTIONS = (
     *("--steps", "2", "--neighbors", "7", "--constraint", "world", "--descriptor", "pca", "--repel", "world"),
     *("--over-relaxation", "2,1.2", "--limit", "0.25", "--constraint-neighbors", "30", "--thresholds", "0.9,0.4"),
-    *("--search", "exact", "--surface", "tangent", "--device", "auto"),
+    *("--search", "exact", "--surface", "tangent", "--period", "0,0,4", "--device", "auto"),
 )
 
 
@@ -39,8 +40,31 @@ def layered_zarr(ring: pl.Scene, tmp_path_factory: pytest.TempPathFactory) -> Pa
     return path
 
 
+def parse_relax(*options: str) -> dict[str, Any]:
+    parsed = vars(build_parser().parse_args(["relax", "a.zarr", "-o", "b.zarr", *options]))
+    return {name: value for name, value in parsed.items() if name in AllRelaxKeywords.__annotations__}
+
+
 def read_json(capsys: pytest.CaptureFixture[str]) -> dict[str, Any]:
     return json.loads(capsys.readouterr().out)
+
+
+def test_relax_has_an_option_for_every_keyword(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("relax", "--help") == 0
+    printed = capsys.readouterr().out.split()
+    assert {f"--{name.replace('_', '-')}" for name in AllRelaxKeywords.__annotations__} <= set(printed)
+
+
+def test_option_that_is_not_given_is_left_to_the_interface() -> None:
+    assert parse_relax() == {}
+    assert parse_relax("--steps", "3") == {"steps": 3}
+
+
+def test_help_names_the_defaults_and_ranges(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("relax", "--help") == 0
+    printed = " ".join(capsys.readouterr().out.split())
+    for part in (f"1 to {MAX_NEIGHBORS}; default {DEFAULTS['neighbors']}", f"none; default {DEFAULTS['limit']:g}"):
+        assert part in printed
 
 
 def test_relax_writes_what_the_interface_makes(ring_zarr: Path, tmp_path: Path) -> None:
@@ -77,7 +101,7 @@ def test_relax_takes_every_option(ring_zarr: Path, tmp_path: Path) -> None:
         "diffuse_flux": False,
         "search": "exact",
         "surface": "tangent",
-        "period": [0.0, 0.0, 0.0],
+        "period": [0.0, 0.0, 4.0],
     }
 
 
@@ -89,6 +113,7 @@ def test_relax_takes_every_option(ring_zarr: Path, tmp_path: Path) -> None:
         ("--over-relaxation 1.5", "over_relaxation", [1.5, 1.5]),
         ("--limit none", "limit", None),
         ("--diffuse-flux", "diffuse_flux", True),
+        ("--period 4,0,2.5", "period", [4.0, 0.0, 2.5]),
         (f"--search {SEARCHES[-1]}", "search", SEARCHES[-1]),
         ("--constraint parameter", "constraint", "parameter"),
         ("", "constraint", "parameter"),
@@ -117,6 +142,11 @@ def test_relax_prints_a_row_for_each_step(ring_zarr: Path, tmp_path: Path, capsy
 def test_relax_says_where_photons_moved(ring_zarr: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run("relax", ring_zarr, "-o", tmp_path / "a.zarr", "--steps", 1, "--surface", "tangent") == 0
     assert "moved on: tangent planes" in capsys.readouterr().out
+
+
+def test_relax_says_where_space_repeats(ring_zarr: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("relax", ring_zarr, "-o", tmp_path / "a.zarr", "--steps", 1, "--period", "4,0,4") == 0
+    assert "space repeats after 4,0,4 m" in capsys.readouterr().out
 
 
 def test_relax_says_which_beta_was_used(layered_zarr: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -173,6 +203,9 @@ def test_relax_reports_seconds_as_json(ring_zarr: Path, tmp_path: Path, capsys: 
         ["{map}", "-o", "{out}.zarr", "--thresholds", "nan,1"],
         ["{map}", "-o", "{out}.zarr", "--search", "quick"],
         ["{map}", "-o", "{out}.zarr", "--surface", "sphere"],
+        ["{map}", "-o", "{out}.zarr", "--period", "4"],
+        ["{map}", "-o", "{out}.zarr", "--period", "0,0,wide"],
+        ["{map}", "-o", "{out}.zarr", "--period=-1,0,0"],
     ],
     ids=" ".join,
 )

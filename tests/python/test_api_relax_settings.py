@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import photonloupe as pl
-from photonloupe.relaxing import SEARCHES
+from photonloupe.relax_settings import SEARCHES
 from relax_maps import COUNT, STEPS, build
 
 

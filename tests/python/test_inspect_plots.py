@@ -184,7 +184,7 @@ def test_images_that_cannot_be_compared_are_refused() -> None:
         pl.inspect.error_map(flat, np.ones((4, 3, 3)))
     odd = flat.copy()
     odd[2, 1, 0] = np.nan
-    with pytest.raises(pl.ArgumentError, match="the image has 1 pixels that are not finite .* row 2, column 1"):
+    with pytest.raises(pl.ArgumentError, match=r"the image has 1 pixels that are not finite .* row 2, column 1"):
         pl.inspect.error_map(odd, flat)
     with pytest.raises(pl.ArgumentError, match=r"the reference must have shape \(h, w, 3\)"):
         pl.inspect.error_map(flat, np.ones((4, 4)))

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import photonloupe as pl
+from photonloupe.relax_settings import DEFAULT_CONSTRAINT_NEIGHBORS, DEFAULT_STEPS, DEFAULTS
 from studio_driver import (
     TRAJECTORY,
     borrow,
@@ -35,6 +36,19 @@ def studio(opened: pl.Studio) -> Iterator[pl.Studio]:
     with borrow(opened, relax={"choices": choices}) as lent:
         show_panel(lent, "Relaxation")
         yield lent
+
+
+def test_studio_begins_with_the_defaults_of_python() -> None:
+    with pl.Studio(offscreen=True, size=(800, 600)) as empty:
+        state = read_state(empty)
+    choices = state["relax"]["choices"]
+    expected = DEFAULTS | {
+        "steps": DEFAULT_STEPS[state["trace"]["emission"]],
+        "constraint_neighbors": DEFAULT_CONSTRAINT_NEIGHBORS[DEFAULTS["descriptor"]],
+    }
+    del expected["period"]  # the studio's space never repeats
+    for name, value in expected.items():
+        assert choices[name] == (value if isinstance(value, str) else pytest.approx(value)), name
 
 
 def relax_alike(studio: pl.Studio, steps: int) -> pl.PhotonMap:

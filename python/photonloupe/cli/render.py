@@ -21,7 +21,7 @@ from photonloupe.cli.script import add_value_options, parse_values
 from photonloupe.device import open_device
 from photonloupe.errors import ArgumentError
 from photonloupe.image import MAX_EXPOSURE, check_image_path
-from photonloupe.relaxing import MAX_STEPS
+from photonloupe.relax_settings import MAX_STEPS
 from photonloupe.rendering import MODES
 from photonloupe.scripting import check_values
 

@@ -14,10 +14,10 @@ from photonloupe import _engine
 from photonloupe.checks import check_choice, check_count, check_vectors
 from photonloupe.device import open_device
 from photonloupe.errors import ArgumentError
-from photonloupe.nearest import MAX_NEIGHBORS, SPACES, read_ranges
+from photonloupe.nearest import DEFAULT_BETA, MAX_NEIGHBORS, SPACES, read_ranges
 from photonloupe.photons import PhotonMap
 from photonloupe.progress import ProgressLike, follow_progress
-from photonloupe.relaxing import check_beta
+from photonloupe.relax_settings import check_beta
 
 Floats = NDArray[np.float32]
 
@@ -113,7 +113,7 @@ def loupe(
     point: ArrayLike | int,
     k: int = 250,
     space: str = "world",
-    beta: float | str = 3.0,
+    beta: float | str = DEFAULT_BETA,
     center: int | None = None,
     ranges: Mapping[int | str, tuple[float, float]] | None = None,
     *,
