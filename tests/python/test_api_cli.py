@@ -56,6 +56,40 @@ def test_render_reports_as_json(ring_path: Path, tmp_path: Path, capsys: pytest.
     assert json.loads(capsys.readouterr().out)["photons"] >= 5000
 
 
+def test_render_takes_a_kernel(ring_path: Path, tmp_path: Path) -> None:
+    assert run("render", ring_path, "-o", tmp_path / "a.exr", *SMALL, "--kernel", "cone") == 0
+    assert pl.load_image(tmp_path / "a.exr").provenance["settings"]["kernel"] == "cone"
+
+
+def test_render_of_a_saved_map_is_that_of_the_interface(ring: pl.Scene, ring_path: Path, tmp_path: Path) -> None:
+    pl.trace_photons(ring, 2_000, seed=4).relax(1).save(tmp_path / "a.zarr")
+    options = (*SMALL[2:], "--map", tmp_path / "a.zarr", "--mode", "caustic", "--k", 20)
+    assert run("render", ring_path, "-o", tmp_path / "a.exr", *options) == 0
+    expected = pl.render(
+        ring, pl.load_photons(tmp_path / "a.zarr"), width=32, height=32, samples=1, mode="caustic", k=20
+    )
+    np.testing.assert_array_equal(np.asarray(pl.load_image(tmp_path / "a.exr")), np.asarray(expected))
+
+
+def test_render_shows_the_colors_of_a_saved_map(ring: pl.Scene, ring_path: Path, tmp_path: Path) -> None:
+    photons = pl.trace_photons(ring, 2_000, seed=4)
+    photons.run_script("for (i = 0; i < getNumPhotons(); i++) setPhotonColourEncoding(i, 1, 0, 0);")
+    photons.save(tmp_path / "a.zarr")
+    options = (*SMALL[2:], "--map", tmp_path / "a.zarr", "--mode", "false-color")
+    assert run("render", ring_path, "-o", tmp_path / "a.exr", *options) == 0
+    pixels = np.asarray(pl.load_image(tmp_path / "a.exr"))
+    assert pixels[..., 0].max() > 0.0
+    assert pixels[..., 1].max() == 0.0
+
+
+def test_map_of_another_scene_is_named(
+    ring_path: Path, plate_path: Path, tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    pl.trace_photons(pl.load_scene(plate_path), 2_000, store="all").save(tmp_path / "a.zarr")
+    assert run("render", ring_path, "-o", tmp_path / "a.exr", *SMALL[2:], "--map", tmp_path / "a.zarr") == 0
+    assert "was not traced in" in caplog.text
+
+
 def test_trace_writes_a_map(ring_path: Path, tmp_path: Path) -> None:
     options = ["--photons", "3000", "--store", "caustic", "--emission", "random", "--columns", "paths", "--seed", "2"]
     assert run("trace", ring_path, "-o", tmp_path / "a.zarr", *options) == 0
@@ -117,6 +151,10 @@ def test_doctor_describes_a_scene(ring_path: Path, capsys: pytest.CaptureFixture
         ["render", "{ring}", "-o", "{out}.exr", "--mode", "pretty"],
         ["render", "{ring}", "-o", "{out}.exr", "--exposure", "nan"],
         ["render", "{ring}", "-o", "{out}.exr", "--seed", "-1"],
+        ["render", "{ring}", "-o", "{out}.exr", "--kernel", "box"],
+        ["render", "{ring}", "-o", "{out}.exr", "--map", "{missing}.zarr"],
+        ["render", "{ring}", "-o", "{out}.exr", "--map", "{missing}.zarr", "--photons", "9"],
+        ["render", "{ring}", "-o", "{out}.exr", "--map", "{missing}.zarr", "--mode", "direct"],
         ["render", "{ring}"],
         ["trace", "{missing}", "-o", "{out}.zarr"],
         ["trace", "{dark}", "-o", "{out}.zarr"],

@@ -92,6 +92,20 @@ def test_script_runs_over_a_map_and_writes_it(folder: Path, capsys: pytest.Captu
     assert result["prints"] == [f"photons {len(written)}"]
 
 
+def test_limits_of_a_run_are_taken(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    taken: dict[str, float] = {}
+    run_script = pl.PhotonMap.run_script
+
+    def watch(photons: pl.PhotonMap, script: pl.Script, **keywords: Any) -> pl.ScriptRun:
+        taken.update(keywords["limits"])
+        return run_script(photons, script, **keywords)
+
+    monkeypatch.setattr(pl.PhotonMap, "run_script", watch)
+    options = ("--fuel", 5000, "--exhausted", 7, "--seconds", 2.5)
+    assert run("script", folder / "good.photon", folder / "ring.zarr", *options) == 0
+    assert taken == {"fuel": 5000, "exhausted": 7, "seconds": 2.5}
+
+
 def test_script_prints_a_report(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run("script", folder / "good.photon", folder / "ring.zarr") == 0
     shown = capsys.readouterr().out
@@ -109,6 +123,8 @@ def test_script_prints_a_report(folder: Path, capsys: pytest.CaptureFixture[str]
         (("absent.photon",), "absent.photon"),
         (("good.photon", "absent.zarr"), "absent.zarr"),
         (("good.photon", "ring.zarr", "--fuel", "0"), "fuel"),
+        (("good.photon", "ring.zarr", "--exhausted", "0"), "exhausted"),
+        (("good.photon", "ring.zarr", "--seconds", "0"), "seconds"),
     ],
 )
 def test_mistakes_get_one_message(

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+import logging
 from pathlib import Path
 
 import photonloupe as pl
@@ -21,9 +22,13 @@ from photonloupe.cli.script import add_value_options, parse_values
 from photonloupe.device import open_device
 from photonloupe.errors import ArgumentError
 from photonloupe.image import MAX_EXPOSURE, check_image_path
+from photonloupe.progress import ProgressLike
+from photonloupe.queries import KERNELS
 from photonloupe.relax_settings import MAX_STEPS
 from photonloupe.rendering import MODES
 from photonloupe.scripting import check_values
+
+LOG = logging.getLogger("photonloupe")
 
 SUMMARY = "trace a scene and render it"
 DESCRIPTION = "Trace photons through a glTF scene, gather them, and write an .exr (linear radiance) or a .png."
@@ -34,6 +39,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("scene", metavar="SCENE", help=".gltf or .glb")
     parser.add_argument("-o", "--output", required=True, metavar="FILE", help=".exr or .png")
     add_photon_options(parser, None)
+    parser.add_argument(
+        "--map", metavar="MAP", help="a .zarr of the scene, instead of tracing; traced, scripted or relaxed"
+    )
     parser.add_argument("--script", metavar="FILE", help="run this .photon script over the photons first")
     add_value_options(parser)
     parser.add_argument(
@@ -45,6 +53,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="relax the photons, constrained by the script's parameters, else in world space; default STEPS: the best",
     )
     parser.add_argument("--k", type=int, metavar="N", help="photons in an estimate, 1 to 1000")
+    parser.add_argument("--kernel", choices=KERNELS, default=KERNELS[0], help=f"of an estimate; default {KERNELS[0]}")
     parser.add_argument("--width", type=int, default=512, metavar="N", help="pixels; default 512")
     parser.add_argument("--height", type=int, default=512, metavar="N", help="pixels; default 512")
     parser.add_argument("--samples", type=int, metavar="N", help="per pixel")
@@ -66,12 +75,25 @@ def _read_script(arguments: argparse.Namespace) -> tuple[pl.Script | None, dict[
     if arguments.script is None:
         if values:
             raise ArgumentError("--set gives a value to a script; name it with --script")
-        if arguments.mode == "false-color":
+        if arguments.mode == "false-color" and arguments.map is None:
             raise ArgumentError("--mode false-color shows the colors a script gives; name it with --script")
         return None, {}
     script = pl.compile_script(Path(arguments.script))
     script.require()
     return script, check_values(script, values)
+
+
+def _find_photons(
+    arguments: argparse.Namespace, scene: pl.Scene, device: pl.Device, progress: ProgressLike
+) -> pl.PhotonMap:
+    """Load the map that was named, or trace one."""
+    if arguments.map is None:
+        count = QUALITIES[arguments.quality].photons if arguments.photons is None else arguments.photons
+        return pl.trace_photons(scene, count, seed=arguments.seed, device=device, progress=progress)
+    photons = pl.load_photons(arguments.map, device=device)
+    if photons.provenance.get("scene_hash", scene.hash) != scene.hash:
+        LOG.warning(f"{arguments.map} was not traced in {arguments.scene} as it is now; its light may not fit")
+    return photons
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -82,12 +104,13 @@ def run(arguments: argparse.Namespace) -> int:
     steps = None if arguments.relax is True else arguments.relax
     if steps is not None:
         check_count("--relax", steps, 0, MAX_STEPS)
-    for option in ("relax", "script"):
+    for option in ("relax", "script", "map"):
         if getattr(arguments, option) is not None and arguments.mode == "direct":
             raise ArgumentError(f"--mode direct uses no photons; leave --{option} out, or choose another mode")
+    if arguments.map is not None and arguments.photons is not None:
+        raise ArgumentError("--map brings its photons; leave --photons out, or the map")
     script, values = _read_script(arguments)
     quality = QUALITIES[arguments.quality]
-    count = quality.photons if arguments.photons is None else arguments.photons
     watch = Stopwatch()
     progress = choose_progress()
     with watch.measure("load"):
@@ -96,8 +119,8 @@ def run(arguments: argparse.Namespace) -> int:
         device = open_device(arguments.device)
     photons = None
     if arguments.mode != "direct":
-        with watch.measure("trace"):
-            photons = pl.trace_photons(scene, count, seed=arguments.seed, device=device, progress=progress)
+        with watch.measure("trace" if arguments.map is None else "load"):
+            photons = _find_photons(arguments, scene, device, progress)
     if photons is not None and script is not None:
         with watch.measure("script"):
             photons.run_script(script, values=values, progress=progress)
@@ -114,6 +137,7 @@ def run(arguments: argparse.Namespace) -> int:
             samples=quality.samples if arguments.samples is None else arguments.samples,
             mode=arguments.mode,
             k=quality.k if arguments.k is None else arguments.k,
+            kernel=arguments.kernel,
             seed=arguments.seed,
             device=device,
             progress=progress,

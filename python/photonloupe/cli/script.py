@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -32,6 +33,12 @@ DESCRIPTION = (
     "Without a map no device is needed."
 )
 
+# Limits of a run: how each is read, and what it limits.
+_LIMITS: dict[str, tuple[Callable[[str], float], str]] = {
+    "fuel": (int, "steps of loops without a known end a photon may take"),
+    "exhausted": (int, "photons that may run out of them before a pass stops"),
+    "seconds": (float, "seconds a pass may take"),
+}
 _BAR_WIDTH = 40  # characters of the fullest bin
 
 
@@ -44,7 +51,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add_value_options(parser)
     parser.add_argument("--keep", action="store_true", help="keep parameters and colors the script does not set")
     parser.add_argument("--seed", type=int, default=1, metavar="N", help="of random(); default 1")
-    parser.add_argument("--fuel", type=int, metavar="N", help=f"steps a photon; default {LIMITS['fuel']:,}")
+    for name, (convert, what) in _LIMITS.items():
+        metavar = "N" if convert is int else "X"
+        parser.add_argument(f"--{name}", type=convert, metavar=metavar, help=f"{what}; default {LIMITS[name]:,}")
     add_device_option(parser)
 
 
@@ -179,7 +188,7 @@ def run(arguments: argparse.Namespace) -> int:
         device = open_device(arguments.device)
     with watch.measure("load"):
         photons = pl.load_photons(arguments.map, device=device)
-    limits = {} if arguments.fuel is None else {"fuel": arguments.fuel}
+    limits = {name: getattr(arguments, name) for name in _LIMITS if getattr(arguments, name) is not None}
     with watch.measure("script"):
         ran = photons.run_script(
             script,
