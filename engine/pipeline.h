@@ -34,8 +34,8 @@ struct Photons {
     std::shared_ptr<const ParameterRows> parameter_rows; // relaxations keep them
     std::optional<ParameterTree> parameter_tree;
     std::optional<ParameterTree> layered_tree;
-    LayerReach layered_for; // what it was built to suit …
-    float layered_scale = 0; // … and how it weighs parameters
+    LayerReach layered_for;                    // what it was built to suit …
+    float layered_scale = 0;                   // … and how it weighs parameters
     std::shared_ptr<const RelaxedState> state; // null: neither constrained nor relaxed
 
     // Trees of parameters that are no longer the map's.

@@ -57,8 +57,8 @@ struct Estimate {
         const gpu::Buffer radii(device, points.count * RADIUS_BYTES, "radii of estimates");
         const RadiusSettings radius = choose_radius(settings);
         find_radii(device, neighborhood, queries, radius, radii, STAGE, progress);
-        gather(device, neighborhood, queries, bind_kernel(radii, result_rows), make_gather_settings(neighborhood, radius.rank),
-               STAGE, progress);
+        gather(device, neighborhood, queries, bind_kernel(radii, result_rows),
+               make_gather_settings(neighborhood, radius.rank), STAGE, progress);
     }
 
     // Points that stand together share a radius where they may; returns those that may not.

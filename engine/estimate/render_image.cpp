@@ -196,7 +196,8 @@ void require_settings(const RenderSettings& settings, const RenderedMap* map) {
 bool expects_one_normal(const Scene& scene) {
     std::optional<glm::vec3> first;
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
-        const shared::Material& material = scene.materials[std::bit_cast<std::uint32_t>(scene.triangles[i].v1_material.w)];
+        const shared::Material& material =
+            scene.materials[std::bit_cast<std::uint32_t>(scene.triangles[i].v1_material.w)];
         if (material.base_color_metallic.w >= 1.0f || material.emission_transmission.w >= 1.0f)
             continue; // nothing diffuse
         for (const glm::vec4& normal : {scene.normals[i].n0, scene.normals[i].n1, scene.normals[i].n2}) {

@@ -91,8 +91,8 @@ Neighbors find_neighbors(gpu::Device& device, Neighborhood neighborhood, const N
     radius.cuts_ties = radius.leaves_self_out = true;
     GatherKernel list{"photons/list_neighbors.comp", {"CUT_TIES", "BY_ID", "WITHOUT_SELF"}, {}};
     std::vector<gpu::KernelSource> kernels = list_sort_kernels(k);
-    kernels.insert(kernels.begin(), {name_radius_kernel(neighborhood, asked, radius),
-                                     name_gather_kernel(neighborhood, asked, list)});
+    kernels.insert(kernels.begin(),
+                   {name_radius_kernel(neighborhood, asked, radius), name_gather_kernel(neighborhood, asked, list)});
     device.compile_ahead(kernels);
     find_radii(device, neighborhood, asked, radius, radii, STAGE, progress);
 

@@ -12,8 +12,8 @@ struct Neighbors {
     gpu::Buffer distances; // float, metres, or in parameter space
 };
 
-// `neighborhood` names the tree and the measure; what queries bring along decides who else is left out. Queries that are
-// photons do not find themselves.
+// `neighborhood` names the tree and the measure; what queries bring along decides who else is left out. Queries that
+// are photons do not find themselves.
 Neighbors find_neighbors(gpu::Device& device, Neighborhood neighborhood, const NeighborQueries& queries,
                          std::uint32_t k, const Progress& progress = {});
 

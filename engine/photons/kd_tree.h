@@ -50,8 +50,8 @@ KdTree build_tree(gpu::Device& device, const PhotonMap& photons, const RangeRows
                   float parameter_scale = 0, const Progress& progress = {});
 
 // Records the filling of tree.normals and, with ranges, of tree.rows from the map, in the order of tree.positions, for
-// `count` photons: no more than workgroups of ORDER_GROUP that the device allows. `emitters` holds the least emitter and
-// the complement of the greatest.
+// `count` photons: no more than workgroups of ORDER_GROUP that the device allows. `emitters` holds the least emitter
+// and the complement of the greatest.
 constexpr std::uint32_t ORDER_GROUP = 64;
 void order_columns(gpu::Commands& commands, const PhotonMap& photons, const RangeRows* ranges, const KdTree& tree,
                    const gpu::Buffer& emitters, std::uint64_t first, std::uint64_t count);

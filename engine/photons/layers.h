@@ -47,8 +47,8 @@ ParameterTree build_layered_tree(gpu::Device& device, const PhotonMap& photons,
 // What is sought in such a tree; layers and intervals are still to be named.
 Neighborhood look_in(const ParameterTree& tree, Measure measure);
 
-// The distance r_q of each query to its k-th neighbour in parameter space as radii (x squared, w photons found, their own
-// photon among them).
+// The distance r_q of each query to its k-th neighbour in parameter space as radii (x squared, w photons found, their
+// own photon among them).
 gpu::Buffer find_parameter_radii(gpu::Device& device, const ParameterTree& tree, const Queries& queries,
                                  std::uint32_t k, const Progress& progress = {});
 

@@ -10,9 +10,9 @@ namespace photonloupe {
 
 // What is asked, a query after the other as the user named them.
 struct NeighborQueries {
-    std::vector<glm::vec4> points; // xyz relative to the map's origin, w bits: the photon itself, or NOBODY
-    std::vector<glm::vec4> rows;   // layer number and parameters of each, where they decide
-    std::vector<float> reach2;     // squared reach in parameter space of each, of layers
+    std::vector<glm::vec4> points;    // xyz relative to the map's origin, w bits: the photon itself, or NOBODY
+    std::vector<glm::vec4> rows;      // layer number and parameters of each, where they decide
+    std::vector<float> reach2;        // squared reach in parameter space of each, of layers
     std::vector<glm::vec4> intervals; // the least row, then the greatest; empty: no intervals
     std::uint32_t row_count = 0;
 };

@@ -212,19 +212,19 @@ void Relaxation::shift_photons() {
 
 void Relaxation::find_surface(const Progress& progress) {
     m_triangles = gpu::Buffer(m_device, m_photons.count * sizeof(std::uint32_t), "photons' triangles");
-    gpu::run_in_chunks(
-        m_device, STAGE, m_photons.count, FIRST_CHUNK, progress,
-        [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
-            const shared::MoveSettings push{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count), 0, 0};
-            commands.dispatch(name_surface_kernel(),
-                              {{"tree_positions", m_tree.positions},
-                               {"tree_normals", m_tree.normals},
-                               {"power_object", m_photons.power_object},
-                               {"radii", m_radii},
-                               {"geometry", m_surface.scene->geometry},
-                               {"photon_triangles", m_triangles}},
-                              push, count);
-        });
+    gpu::run_in_chunks(m_device, STAGE, m_photons.count, FIRST_CHUNK, progress,
+                       [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
+                           const shared::MoveSettings push{static_cast<std::uint32_t>(first),
+                                                           static_cast<std::uint32_t>(count), 0, 0};
+                           commands.dispatch(name_surface_kernel(),
+                                             {{"tree_positions", m_tree.positions},
+                                              {"tree_normals", m_tree.normals},
+                                              {"power_object", m_photons.power_object},
+                                              {"radii", m_radii},
+                                              {"geometry", m_surface.scene->geometry},
+                                              {"photon_triangles", m_triangles}},
+                                             push, count);
+                       });
 }
 
 // Of a step; the first seeks its radii.
@@ -319,23 +319,23 @@ void Relaxation::move(const Progress& progress) {
     const SceneBuffers* scene = m_surface.scene.get();
     const bool is_constrained = m_settings.constraint.descriptor != Descriptor::none;
     const gpu::Buffer& unused = m_next;
-    gpu::run_in_chunks(
-        m_device, STAGE, m_photons.count, FIRST_CHUNK, progress,
-        [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
-            const shared::MoveSettings push{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count), 0, 0};
-            commands.dispatch(kernel,
-                              {{"tree_positions_before", m_tree.positions},
-                               {"tree_positions_after", m_next},
-                               {"moves", m_moves},
-                               {"power_object", m_photons.power_object},
-                               {"geometry", scene ? scene->geometry : m_tree.nodes},
-                               {"shading_normals", scene ? scene->normals : m_tree.nodes},
-                               {"tree_normals", m_tree.normals},
-                               {"photon_triangles", scene ? m_triangles : m_radii},
-                               {"constraint_along", is_constrained ? m_constraint.along : unused},
-                               {"constraint_across", is_constrained ? m_constraint.across : unused}},
-                              push, count);
-        });
+    gpu::run_in_chunks(m_device, STAGE, m_photons.count, FIRST_CHUNK, progress,
+                       [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
+                           const shared::MoveSettings push{static_cast<std::uint32_t>(first),
+                                                           static_cast<std::uint32_t>(count), 0, 0};
+                           commands.dispatch(kernel,
+                                             {{"tree_positions_before", m_tree.positions},
+                                              {"tree_positions_after", m_next},
+                                              {"moves", m_moves},
+                                              {"power_object", m_photons.power_object},
+                                              {"geometry", scene ? scene->geometry : m_tree.nodes},
+                                              {"shading_normals", scene ? scene->normals : m_tree.nodes},
+                                              {"tree_normals", m_tree.normals},
+                                              {"photon_triangles", scene ? m_triangles : m_radii},
+                                              {"constraint_along", is_constrained ? m_constraint.along : unused},
+                                              {"constraint_across", is_constrained ? m_constraint.across : unused}},
+                                             push, count);
+                       });
     std::swap(m_tree.positions, m_next);
     refit_tree(m_device, m_tree, STAGE);
 }

@@ -339,12 +339,12 @@ void Tracer::scale_power(const Progress& progress) {
         float factor;
     };
     const float factor = static_cast<float>(1.0 / static_cast<double>(m_report.emitted));
-    gpu::run_in_chunks(
-        m_device, "scale power", m_photon_count, 1 << 16, progress,
-        [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
-            const Push push{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count), factor};
-            commands.dispatch(m_kernels.scale, {{"power_object", m_power.buffer()}}, push, count);
-        });
+    gpu::run_in_chunks(m_device, "scale power", m_photon_count, 1 << 16, progress,
+                       [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
+                           const Push push{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count),
+                                           factor};
+                           commands.dispatch(m_kernels.scale, {{"power_object", m_power.buffer()}}, push, count);
+                       });
     for (auto* flux :
          {&m_report.flux_emitted, &m_report.flux_deposited, &m_report.flux_escaped, &m_report.flux_truncated})
         for (double& channel : *flux)

@@ -21,7 +21,9 @@ const std::vector<std::string> ABSORPTION{"", "HAS_ABSORPTION"};
 const std::vector<std::string> LIGHTS{"", "HAS_SEVERAL_LIGHTS"};
 const std::vector<std::string> KERNELS{"KERNEL 0", "KERNEL 1", "KERNEL 2", "KERNEL 3"};
 
-const std::vector<std::string> SURFACE{"HAS_NORMALS", "HAS_NORMALS\n#define FLAT_AXES xz", "HAS_NORMALS\n#define ON_SURFACE"}, PERIODIC{"", "PERIODIC"}, SINGLY{"", "SINGLY"};
+const std::vector<std::string> SURFACE{"HAS_NORMALS", "HAS_NORMALS\n#define FLAT_AXES xz",
+                                       "HAS_NORMALS\n#define ON_SURFACE"},
+    PERIODIC{"", "PERIODIC"}, SINGLY{"", "SINGLY"};
 // Two vec4s a row.
 const std::string ROWS = "ROW_COUNT 2u\n#define EACH_ROW(DO) DO(0) DO(1)\n"
                          "#define EACH_PARAMETER(DO) DO(1) DO(2) DO(3) DO(4) DO(5)";
@@ -37,7 +39,8 @@ const std::vector<std::string> SPACES{"",
 const std::vector<std::string> PARAMETERS{SPACES[5], SPACES[6]};
 const std::vector<std::string> OWN{"", "OWN_PHOTONS"};
 const std::vector<std::string> TIES{"", "CUT_TIES\n#define BY_ID", "CUT_TIES\n#define BY_ID\n#define WITHOUT_SELF"};
-const std::vector<std::string> RUN{"RUN 2u\n#define EACH_OF_RUN(DO) DO(0u) DO(1u)\n#define EACH_PAIR_OF_RUN(DO) DO(0u)"},
+const std::vector<std::string> RUN{
+    "RUN 2u\n#define EACH_OF_RUN(DO) DO(0u) DO(1u)\n#define EACH_PAIR_OF_RUN(DO) DO(0u)"},
     NETWORK{"SORT_NETWORK(DO) DO(0, 1)"}, RUNS{"RUNS 2\n#define EACH_RUN(DO) DO(0) DO(1)"};
 const std::vector<std::string> SHELL{"SHELL_SIZE 2u\n#define EACH_KEPT(DO) DO(0) DO(1)"};
 const std::vector<std::string> RANGES{"", "RANGE_ROWS 2u"};

@@ -120,7 +120,8 @@ void expect_order(const Photons& photons, const Read& tree, std::size_t heap, Tr
         ASSERT_TRUE(axis == 0 || axis >= 3);
     const auto key = [&](std::size_t at) {
         const std::uint32_t id = get_id(tree.positions[at]);
-        const float value = axis < 3 ? tree.positions[at][axis] : photons.values[id][static_cast<std::size_t>(axis - 3)];
+        const float value =
+            axis < 3 ? tree.positions[at][axis] : photons.values[id][static_cast<std::size_t>(axis - 3)];
         return std::pair(value, id);
     };
     auto last = key(first);

@@ -187,7 +187,8 @@ TEST(Tree, of_a_periodic_order_that_samples_meet_in_step_equals_the_twin) {
     expect_twin(points);
 }
 
-// A large node's 4,096 samples, every 48th photon from the 24th on, all lie where the median is not: it is sought again.
+// A large node's 4,096 samples, every 48th photon from the 24th on, all lie where the median is not: it is sought
+// again.
 TEST(Tree, whose_samples_miss_the_median_equals_the_twin) {
     Points points = draw_points(std::size_t{4096} * 48, 14);
     for (std::size_t i = 24; i < points.size(); i += 48)
