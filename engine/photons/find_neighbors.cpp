@@ -14,9 +14,13 @@ constexpr std::uint32_t RUN = 64;
 constexpr std::uint64_t LIST_BYTES = 64ull << 20; // of the lists under way together
 constexpr std::uint64_t PAIR_BYTES = sizeof(glm::uvec2);
 
+std::uint32_t count_runs(std::uint32_t k) {
+    return (k + RUN - 1) / RUN;
+}
+
 // What puts lists of k in order: sorted runs, merged where there are several.
 std::vector<gpu::KernelSource> list_sort_kernels(std::uint32_t k) {
-    const std::uint32_t runs = (k + RUN - 1) / RUN;
+    const std::uint32_t runs = count_runs(k);
     const std::string size = "RUN " + std::to_string(RUN) + "u";
     std::vector<gpu::KernelSource> kernels{{"photons/sort_neighbors.comp",
                                             SORT_GROUP,
@@ -42,31 +46,24 @@ struct Lists {
     const gpu::Buffer& result_rows;
     const Neighbors& neighbors;
 
-    // Runs `kernel` over the lists of queries first … first + rows - 1.
-    void run(const gpu::KernelSource& kernel, std::uint64_t first, std::uint64_t rows, std::uint32_t lanes_each,
-             const Progress& progress) const {
+    // Puts those of queries first … first + rows - 1 in order.
+    void sort(std::uint64_t first, std::uint64_t rows, const Progress& progress) const {
+        const std::vector<gpu::KernelSource> kernels = list_sort_kernels(k);
+        const std::vector<gpu::Binding> bindings{{"found_lists", found},
+                                                 {"found_neighbors", found},
+                                                 {"found_counts", found_counts},
+                                                 {"result_rows", result_rows},
+                                                 {"neighbor_ids", neighbors.ids},
+                                                 {"neighbor_distances", neighbors.distances}};
         gpu::run_in_chunks(device, STAGE, rows, SORT_GROUP * 16, progress,
                            [&](gpu::Commands& commands, std::uint64_t begin, std::uint64_t size) {
                                const shared::SortSettings push{static_cast<std::uint32_t>(first + begin),
                                                                static_cast<std::uint32_t>(size),
                                                                static_cast<std::uint32_t>(first), k};
-                               commands.dispatch(kernel,
-                                                 {{"found_lists", found},
-                                                  {"found_neighbors", found},
-                                                  {"found_counts", found_counts},
-                                                  {"result_rows", result_rows},
-                                                  {"neighbor_ids", neighbors.ids},
-                                                  {"neighbor_distances", neighbors.distances}},
-                                                 push, size * lanes_each);
+                               commands.dispatch(kernels[0], bindings, push, size * count_runs(k));
+                               if (kernels.size() > 1)
+                                   commands.dispatch(kernels[1], bindings, push, size);
                            });
-    }
-
-    // Puts them in order.
-    void sort(std::uint64_t first, std::uint64_t rows, const Progress& progress) const {
-        const std::vector<gpu::KernelSource> kernels = list_sort_kernels(k);
-        run(kernels[0], first, rows, (k + RUN - 1) / RUN, progress);
-        if (kernels.size() > 1)
-            run(kernels[1], first, rows, 1, progress);
     }
 };
 
