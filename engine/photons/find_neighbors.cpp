@@ -49,17 +49,15 @@ struct Lists {
     // Puts those of queries first … first + rows - 1 in order.
     void sort(std::uint64_t first, std::uint64_t rows, const Progress& progress) const {
         const std::vector<gpu::KernelSource> kernels = list_sort_kernels(k);
-        const std::vector<gpu::Binding> bindings{{"found_lists", found},
-                                                 {"found_neighbors", found},
-                                                 {"found_counts", found_counts},
-                                                 {"result_rows", result_rows},
-                                                 {"neighbor_ids", neighbors.ids},
-                                                 {"neighbor_distances", neighbors.distances}};
+        const std::vector<gpu::Binding> bindings{
+            {"found_lists", found},       {"found_neighbors", found},      {"found_counts", found_counts},
+            {"result_rows", result_rows}, {"neighbor_ids", neighbors.ids}, {"neighbor_distances", neighbors.distances}};
         gpu::run_in_chunks(device, STAGE, rows, SORT_GROUP * 16, progress,
                            [&](gpu::Commands& commands, std::uint64_t begin, std::uint64_t size) {
-                               const shared::SortSettings push{static_cast<std::uint32_t>(first + begin),
-                                                               static_cast<std::uint32_t>(size),
-                                                               static_cast<std::uint32_t>(first), k};
+                               const shared::SortSettings settings{static_cast<std::uint32_t>(first + begin),
+                                                                   static_cast<std::uint32_t>(size),
+                                                                   static_cast<std::uint32_t>(first), k};
+                               const auto push = std::as_bytes(std::span(&settings, 1));
                                commands.dispatch(kernels[0], bindings, push, size * count_runs(k));
                                if (kernels.size() > 1)
                                    commands.dispatch(kernels[1], bindings, push, size);
