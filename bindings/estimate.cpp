@@ -2,38 +2,11 @@
 // Binds engine/estimate: irradiance at points, and rendering.
 #include "binding.h"
 
+#include "choices.h"
 #include "photons/map_columns.h"
 
 namespace photonloupe::bindings {
 namespace {
-
-DensityKernel parse_kernel(const std::string& name) {
-    if (name == "epanechnikov")
-        return DensityKernel::epanechnikov;
-    if (name == "disc")
-        return DensityKernel::disc;
-    if (name == "cone")
-        return DensityKernel::cone;
-    if (name == "gaussian")
-        return DensityKernel::gaussian;
-    throw Error("kernel is '" + name + "'; it must be epanechnikov, disc, cone or gaussian");
-}
-
-RenderMode parse_mode(const std::string& name) {
-    if (name == "composite")
-        return RenderMode::composite;
-    if (name == "caustic")
-        return RenderMode::caustic;
-    if (name == "direct")
-        return RenderMode::direct;
-    if (name == "photons")
-        return RenderMode::photons;
-    if (name == "false-color")
-        return RenderMode::false_color;
-    if (name == "voronoi")
-        return RenderMode::voronoi;
-    throw Error("mode is '" + name + "'; it must be composite, caustic, direct, photons, false-color or voronoi");
-}
 
 nb::ndarray<nb::numpy, float> estimate(OpenDevice& open, Photons& photons, Matrix<const double, 3> points,
                                        Matrix<const float, 3> normals, std::uint32_t k, const std::string& kernel,

@@ -2,6 +2,7 @@
 // Binds engine/inspect: columns, histograms, the loupe, spectra.
 #include "binding.h"
 
+#include "choices.h"
 #include "inspect/columns/columns.h"
 #include "inspect/histogram.h"
 #include "inspect/loupe.h"
@@ -55,10 +56,7 @@ nb::object take_vectors(const std::vector<glm::vec3>& vectors, const std::array<
 
 LoupeQuery read_query(const nb::dict& given) {
     LoupeQuery query;
-    const auto space = nb::cast<std::string>(given["space"]);
-    query.space = space == "parameter"     ? LoupeSpace::parameter
-                  : space == "constrained" ? LoupeSpace::constrained
-                                           : LoupeSpace::world;
+    query.space = parse_loupe_space(nb::cast<std::string>(given["space"]));
     query.k = nb::cast<std::uint32_t>(given["k"]);
     query.beta = nb::cast<float>(given["beta"]);
     query.photon = nb::cast<std::optional<std::uint32_t>>(given["photon"]);

@@ -2,6 +2,7 @@
 // Binds engine/photons: columns as NumPy arrays (views where the memory is shared), the tree, neighbours.
 #include "binding.h"
 
+#include "choices.h"
 #include "photons/map_columns.h"
 
 namespace photonloupe::bindings {
@@ -99,7 +100,7 @@ std::shared_ptr<Photons> make_photons(OpenDevice& open, const nb::dict& columns,
                            take_span<std::int32_t>(columns, "object")};
     auto photons = std::make_shared<Photons>();
     photons->map = make_map(open.device, spans);
-    photons->store = store == "all" ? Store::all : store == "indirect" ? Store::indirect : Store::caustic;
+    photons->store = parse_store(store);
     return photons;
 }
 
@@ -113,18 +114,18 @@ using Points = nb::ndarray<nb::numpy, const double, nb::ndim<2>, nb::c_contig>;
 
 // `points` are of world space, or, in parameter space, rows of all parameters.
 Neighbors find_in_space(OpenDevice& open, Photons& photons, std::span<const double> points,
-                        std::span<const std::uint32_t> ids, bool has_points, std::uint32_t k, const std::string& space,
+                        std::span<const std::uint32_t> ids, bool has_points, std::uint32_t k, inspect::LoupeSpace space,
                         float beta, std::int64_t center, const std::vector<float>& low, const std::vector<float>& high,
                         const Progress& asked) {
     Workbench& bench = open.workbench;
-    if (space == "parameter")
+    if (space == inspect::LoupeSpace::parameter)
         return has_points ? bench.find_parameter_neighbors(photons, points, k, asked)
                           : bench.find_parameter_neighbors_of(photons, ids, k, asked);
     if (!has_points)
-        return space == "world" ? bench.find_neighbors_of(photons, ids, k, asked)
-                                : bench.find_layer_neighbors_of(photons, ids, k, beta, asked);
+        return space == inspect::LoupeSpace::world ? bench.find_neighbors_of(photons, ids, k, asked)
+                                                   : bench.find_layer_neighbors_of(photons, ids, k, beta, asked);
     const std::vector<glm::vec4> local = localize_points(photons.map, points);
-    if (space == "world")
+    if (space == inspect::LoupeSpace::world)
         return bench.find_neighbors(photons, local, k, asked);
     if (center >= 0)
         return bench.find_layer_neighbors(photons, local, static_cast<std::uint32_t>(center), k, beta, asked);
@@ -133,7 +134,7 @@ Neighbors find_in_space(OpenDevice& open, Photons& photons, std::span<const doub
 
 nb::tuple find_near(OpenDevice& open, Photons& photons, std::optional<Points> points, std::optional<Ids> ids,
                     std::uint32_t k, const nb::dict& query, nb::object progress) {
-    const auto space = nb::cast<std::string>(query["space"]);
+    const inspect::LoupeSpace space = parse_loupe_space(nb::cast<std::string>(query["space"]));
     const auto beta = nb::cast<float>(query["beta"]);
     const auto center = nb::cast<std::int64_t>(query["center"]);
     const auto take = [&](const char* name) {

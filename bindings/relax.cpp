@@ -2,6 +2,7 @@
 // Binds engine/relax: a relaxation that is stepped, and what came of it as arrays.
 #include "binding.h"
 
+#include "choices.h"
 #include "relax/relaxation.h"
 
 namespace photonloupe::bindings {
@@ -13,28 +14,6 @@ struct OpenRelaxation {
     Relaxation relaxation;
 };
 
-Descriptor parse_descriptor(const std::string& name) {
-    if (name == "none")
-        return Descriptor::none;
-    if (name == "gradient")
-        return Descriptor::gradient;
-    if (name == "pca")
-        return Descriptor::pca;
-    if (name == "tensor")
-        return Descriptor::tensor;
-    if (name == "split")
-        return Descriptor::split;
-    throw Error("descriptor is '" + name + "'; it must be none, gradient, pca, tensor or split");
-}
-
-Space parse_space(const std::string& name) {
-    if (name == "world")
-        return Space::world;
-    if (name == "parameter")
-        return Space::parameter;
-    throw Error("space is '" + name + "'; it must be world or parameter");
-}
-
 RelaxSettings read_settings(const nb::dict& given) {
     RelaxSettings settings;
     settings.steps = nb::cast<std::uint32_t>(given["steps"]);
@@ -43,7 +22,7 @@ RelaxSettings read_settings(const nb::dict& given) {
     settings.limit = nb::cast<float>(given["limit"]);
     settings.repel = parse_space(nb::cast<std::string>(given["repel"]));
     settings.beta = nb::cast<float>(given["beta"]);
-    settings.search = nb::cast<std::string>(given["search"]) == "carried" ? RadiusSearch::carried : RadiusSearch::exact;
+    settings.search = parse_search(nb::cast<std::string>(given["search"]));
     settings.diffuse_flux = nb::cast<bool>(given["diffuse_flux"]);
     settings.period = nb::cast<std::array<float, 3>>(given["period"]);
     settings.constraint.descriptor = parse_descriptor(nb::cast<std::string>(given["descriptor"]));

@@ -2,6 +2,8 @@
 // Binds engine/trace: settings in, a photon map with its account out.
 #include "binding.h"
 
+#include "choices.h"
+
 namespace photonloupe::bindings {
 namespace {
 
@@ -10,9 +12,8 @@ TraceSettings read_settings(const nb::dict& given) {
     settings.count = nb::cast<std::uint64_t>(given["count"]);
     settings.emitted = nb::cast<std::uint64_t>(given["emitted"]);
     settings.seed = nb::cast<std::uint32_t>(given["seed"]);
-    settings.emission = nb::cast<std::string>(given["emission"]) == "random" ? Emission::random : Emission::sobol;
-    const std::string store = nb::cast<std::string>(given["store"]);
-    settings.store = store == "all" ? Store::all : store == "indirect" ? Store::indirect : Store::caustic;
+    settings.emission = parse_emission(nb::cast<std::string>(given["emission"]));
+    settings.store = parse_store(nb::cast<std::string>(given["store"]));
     settings.max_bounces = nb::cast<std::uint32_t>(given["max_bounces"]);
     settings.paths = nb::cast<bool>(given["paths"]);
     return settings;
