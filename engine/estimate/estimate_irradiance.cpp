@@ -99,7 +99,6 @@ gpu::Buffer estimate_irradiance(gpu::Device& device, const gpu::Buffer& power, c
                                 const PointSet& points, const gpu::Buffer& result_rows,
                                 const EstimateSettings& settings, const Progress& progress) {
     require_k(settings.k);
-    device.compile_ahead(list_estimate_kernels(settings, find_one_normal(tree)));
     gpu::Buffer irradiance(device, points.count * sizeof(glm::vec4), "irradiance");
     if (tree.count == 0) {
         gpu::Commands commands(device, STAGE);
@@ -108,6 +107,7 @@ gpu::Buffer estimate_irradiance(gpu::Device& device, const gpu::Buffer& power, c
         return irradiance;
     }
     const Estimate estimate{device, power, tree, settings, irradiance, progress};
+    device.compile_ahead(list_estimate_kernels(settings, estimate.neighborhood.has_one_normal));
     if (points.group == 1) {
         estimate.run(points, result_rows);
         return irradiance;

@@ -246,7 +246,6 @@ Image render_image(gpu::Device& device, const Scene& scene, const SceneBuffers& 
     renderer.eye.max_bounces = settings.max_bounces;
     renderer.eye.slot_count = renderer.film_push.slot_count = has_glass ? DIELECTRIC_SLOTS : 1;
     renderer.film_push.light_count = static_cast<std::uint32_t>(scene.lights.size());
-    device.compile_ahead(list_render_kernels(scene, map ? map->store : Store::caustic, settings));
     const Parts parts = choose_parts(settings.mode, map ? map->store : Store::caustic);
     renderer.film_push.uses_emission = parts.emission;
     renderer.film_push.uses_map = parts.map;

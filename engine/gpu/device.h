@@ -70,7 +70,7 @@ public:
 
     // The compiled kernel for a source, built at first request and kept.
     Kernel& find_kernel(const KernelSource& source);
-    // Compiles kernels in background threads, in this order, while earlier work runs; returns at once. One that is
+    // Compiles kernels in background threads, in this order and before what already waits; returns at once. One that is
     // needed before is waited for or compiled where it is needed. What fails is reported by its first use.
     void compile_ahead(const std::vector<KernelSource>& sources);
 

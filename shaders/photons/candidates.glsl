@@ -4,10 +4,9 @@
 //
 // As a rule the measure is the squared distance in space. FLAT_AXES: all photons and queries lie in one plane and share
 // a normal. ON_SURFACE: only those of the same surface, by the radius that takes them in (METHODS §2); ONE_NORMAL: all
-// photons share a normal. SAME_LAYER: only
-// those of the query's layer number and, if it is positive, within its reach in parameter space (METHODS §4).
-// IN_INTERVALS: only those whose rows lie between two others. IN_PARAMETER_SPACE: the measure is the squared distance
-// there, among those of the same layer number. BY_ID: candidates bring their id along. WITHOUT_SELF: a query does not find
+// photons share a normal. SAME_LAYER: only those of the query's layer number and, if it is positive, within its reach in
+// parameter space (METHODS §4). IN_INTERVALS: only those whose rows lie between two others. IN_PARAMETER_SPACE: the
+// measure is the squared distance there, among those of the same layer number. BY_ID: candidates bring their id along. WITHOUT_SELF: a query does not find
 // the photon that it is.
 // HAS_NORMALS: queries bring normals along.
 // Inputs: the tree (tree_nodes, tree_positions, tree_normals, normal_boxes; layers.glsl) and, by query, query_points

@@ -220,6 +220,9 @@ void choose_bounds(uint wanted, uint pass, float limit) {
         float scale = 1.4 * float(wanted) / float(max(my_search.below_count, 1u));
         my_search.lo = my_search.below;
         my_search.hi = base + max(max(below * clamp(scale, 1.5, 16.0), limit * SMALLEST_SHARE), SMALLEST_MEASURE);
+    } else if (is_cut_short && my_search.nearest <= 0.0 && my_search.below < 0.0) {
+        my_search.lo = my_search.below; // the crowd may stand at just the query's place, as in discrete parameters
+        my_search.hi = 0.0;
     } else if (is_cut_short) {
         my_search.lo = my_search.below;
         my_search.hi = base + (below > 0.0 ? sqrt(below) * sqrt(above) : above / 16.0);

@@ -2,7 +2,6 @@
 // First include of every kernel: exact arithmetic, subgroups, and the workgroup size as specialisation constant 0.
 #extension GL_EXT_spirv_intrinsics : require
 #extension GL_KHR_shader_subgroup_basic : require
-#extension GL_KHR_shader_subgroup_vote : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 

@@ -49,7 +49,7 @@ const std::vector<std::string> DESCRIPTORS{"DESCRIPTOR 1", "DESCRIPTOR 2", "DESC
 
 // Kernels that are not named here take no defines.
 const std::map<std::string, Factors> FACTORS{
-    {"estimate/estimate_irradiance.comp", {KERNELS, {SURFACE[2]}, {TIES[1]}, SINGLY}},
+    {"estimate/estimate_irradiance.comp", {KERNELS, {SURFACE[2]}, {"", "ONE_NORMAL"}, {TIES[1]}, SINGLY}},
     {"estimate/trace_eye.comp", {MIRROR, DIELECTRIC, ABSORPTION}},
     {"inspect/count_crossings.comp", {{"", "RAGGED"}}},
     {"photons/choose_brackets.comp", {RANGES}},
