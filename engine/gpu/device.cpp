@@ -96,8 +96,8 @@ std::string find_missing_requirement(VkPhysicalDevice device, const Properties& 
         return "has no compute queue";
     if (!read_features(device).v12.bufferDeviceAddress)
         return "lacks bufferDeviceAddress";
-    const VkSubgroupFeatureFlags needed = VK_SUBGROUP_FEATURE_BASIC_BIT |
-                                          VK_SUBGROUP_FEATURE_ARITHMETIC_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
+    const VkSubgroupFeatureFlags needed =
+        VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
     if ((properties.v11.subgroupSupportedOperations & needed) != needed)
         return "lacks subgroup arithmetic or shuffle";
     if (properties.v11.subgroupSize < SMALLEST_SUBGROUP)
