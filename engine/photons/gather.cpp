@@ -211,7 +211,7 @@ void find_radii(gpu::Device& device, const Neighborhood& neighborhood, const Que
     const std::uint32_t capacity = size_list(settings.rank, device.limits().subgroup_size);
     const std::vector<std::uint32_t> uncounted =
         run_singly(about, name_selection(neighborhood, queries, settings, capacity), {{"radii", radii}}, bytes, left,
-                   SAVED_SEARCH_HEAD + 2 * shared::TREE_STACK_SIZE + 3 * capacity);
+                   SAVED_SEARCH_HEAD + 4 * shared::TREE_STACK_SIZE + 3 * capacity);
     if (uncounted.empty() || !settings.needs_ties)
         return;
     std::vector<std::string> defines = list_defines(neighborhood, queries);

@@ -68,6 +68,9 @@ struct Node {
 #ifdef ROW_COUNT
     Layer layer_lo, layer_hi;
 #endif
+#ifdef BY_ID
+    uint least_id;
+#endif
 };
 
 Place my_place;
@@ -227,6 +230,9 @@ Node load_node(uint heap) {
 #ifdef ROW_COUNT
     load_layer_box(heap, node.layer_lo, node.layer_hi);
 #endif
+#ifdef BY_ID
+    node.least_id = floatBitsToUint(normal_boxes_at(2u * heap).w);
+#endif
     return node;
 }
 
@@ -253,6 +259,30 @@ float bound_measure(Query from, Node node) {
 #endif
     return bound;
 }
+
+#ifdef BY_ID
+// By what photons are told apart, ascending, as bits: measure, break_tie(), id.
+bool is_before(uvec3 a, uvec3 b) {
+    return a.x < b.x || (a.x == b.x && (a.y < b.y || (a.y == b.y && a.z < b.z)));
+}
+
+uvec3 share_entry(uvec3 mine, uint lane) {
+    return uvec3(broadcast(mine.x, lane), broadcast(mine.y, lane), broadcast(mine.z, lane));
+}
+
+// No photon of the node is before this. Where many tie, as in discrete parameters, their ids alone keep nodes away.
+uvec3 bound_entry(Query from, Node node) {
+    float bound = bound_measure(from, node);
+    uint tie = 0u;
+#ifdef IN_PARAMETER_SPACE
+    bool is_exact = bound < INFINITY && is_one_row(node.layer_lo, node.layer_hi);
+    bound = is_exact ? measure_parameters(from.layer, node.layer_lo) : bound;
+#elif defined(ON_SURFACE)
+    tie = floatBitsToUint(measure_box_gap(from.place, node.lo, node.hi));
+#endif
+    return uvec3(floatBitsToUint(bound), tie, node.least_id);
+}
+#endif
 
 // Beyond this no candidate is.
 float limit_reach() {

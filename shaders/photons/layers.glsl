@@ -90,6 +90,14 @@ float measure_row_gap(Layer from, Layer least, Layer most) {
     return apart ? INFINITY : sum * ROW_ROUNDING;
 }
 
+// Whether all photons of a box have the same parameters.
+bool is_one_row(Layer least, Layer most) {
+    bool is_one = true;
+#define TEST_WIDTH(a) is_one = is_one && least.row[a / 4][a % 4] == most.row[a / 4][a % 4];
+    EACH_PARAMETER(TEST_WIDTH)
+    return is_one;
+}
+
 // Beyond this no photon of the tree is from there.
 float limit_parameters(Layer from) {
     float sum = 0.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boxes of one level of the tree from those of the level below, of positions and of normals, and ranges where asked
+// Boxes of one level of the tree from those of the level below, of positions and of normals, with the least id, and ranges where asked
 // for; where nodes were split stays as built. In and out: tree_nodes, normal_boxes, ranges. Define: RANGE_ROWS.
 #include "shared/prelude.glsl"
 #include "photons/tree_layout.glsl"
@@ -16,7 +16,9 @@ void main() {
     TreeNode right = tree_nodes[2u * node + 1u];
     tree_nodes[node].lo_split.xyz = min(left.lo_split.xyz, right.lo_split.xyz);
     tree_nodes[node].hi_axis.xyz = max(left.hi_axis.xyz, right.hi_axis.xyz);
-    normal_boxes[2u * node] = min(normal_boxes[4u * node], normal_boxes[4u * node + 2u]);
+    vec4 left_normals = normal_boxes[4u * node], right_normals = normal_boxes[4u * node + 2u];
+    uint least_id = min(floatBitsToUint(left_normals.w), floatBitsToUint(right_normals.w));
+    normal_boxes[2u * node] = vec4(min(left_normals.xyz, right_normals.xyz), uintBitsToFloat(least_id));
     normal_boxes[2u * node + 1u] = max(normal_boxes[4u * node + 1u], normal_boxes[4u * node + 3u]);
 #ifdef RANGE_ROWS
     for (uint row = 0u; row < RANGE_ROWS; ++row) {

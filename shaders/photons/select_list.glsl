@@ -11,10 +11,6 @@ void synchronize() {
     subgroupBarrier();
 }
 
-bool is_before(uvec3 a, uvec3 b) {
-    return a.x < b.x || (a.x == b.x && (a.y < b.y || (a.y == b.y && a.z < b.z)));
-}
-
 void distribute(uvec3 entry, bool valid, uvec3 pivot, bool inclusive, inout uint left, inout uint right) {
     bool below = valid && (is_before(entry, pivot) || (inclusive && entry == pivot));
     bool above = valid && !below;
@@ -54,10 +50,6 @@ uint split_range(uint first, uint end, uvec3 pivot, bool inclusive) {
     distribute(held_right, LANE < right_count, pivot, inclusive, left, right);
     synchronize();
     return left;
-}
-
-uvec3 share_entry(uvec3 mine, uint lane) {
-    return uvec3(broadcast(mine.x, lane), broadcast(mine.y, lane), broadcast(mine.z, lane));
 }
 
 uvec3 choose_pivot(uint first, uint end, uint split) {

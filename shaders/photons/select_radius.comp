@@ -21,7 +21,7 @@
 
 layout(push_constant) uniform Push { GatherSettings settings; };
 
-const uint NO_BOUND = 0x7f800000u;
+const uint NO_BOUND = 0x7f800000u; // as a measure, of none
 // Photons kept: without CUT_TIES one more than the rank, which tells whether more tie.
 #ifdef CUT_TIES
 #define KEPT settings.rank
@@ -30,7 +30,7 @@ const uint NO_BOUND = 0x7f800000u;
 #endif
 
 shared uint stack_node[TREE_STACK_SIZE];
-shared float stack_bound[TREE_STACK_SIZE];
+shared uvec3 stack_bound[TREE_STACK_SIZE]; // no photon of the node is before it
 
 // What is known of the query: the list's length, the last of the rank smallest, and the nodes that wait.
 struct Selection {
@@ -46,13 +46,13 @@ void push_descendants(Query own, uint node) {
     uint level = find_level(node);
     uint step = min(TREE_STEP_LEVELS, settings.leaf_level - level);
     uint child = (node << step) + min(LANE, (1u << step) - 1u);
-    float bound = bound_measure(own, load_node(child));
-    bool reached = LANE < (1u << step) && floatBitsToUint(bound) <= selection.last.x && bound < INFINITY;
-    bound = reached ? bound : INFINITY;
+    uvec3 bound = bound_entry(own, load_node(child));
+    bool reached = LANE < (1u << step) && bound.x < NO_BOUND && is_before(bound, selection.last);
+    bound = reached ? bound : uvec3(0xffffffffu);
     uint nearer = 0u; // survivors in front of this one
     for (uint other = 0u; other < TREE_FANOUT; ++other) {
-        float theirs = broadcast(bound, other);
-        nearer += uint(theirs < bound || (theirs == bound && other < LANE));
+        uvec3 theirs = share_entry(bound, other);
+        nearer += uint(is_before(theirs, bound) || (theirs == bound && other < LANE));
     }
     uint count = count_lanes(find_lanes(reached));
     if (reached) {
@@ -71,7 +71,7 @@ void list_leaf(uint leaf) {
         turns += 2u;
         Candidate other = load_candidate(min(base + LANE, end - 1u), base + LANE < end);
         uvec3 entry = uvec3(floatBitsToUint(measure_candidate(other)), break_tie(other), other.id);
-        bool found = base + LANE < end && entry.x < NO_BOUND && (selection.last.x == NO_BOUND || is_before(entry, selection.last));
+        bool found = base + LANE < end && entry.x < NO_BOUND && (is_before(entry, selection.last));
         uvec2 ballot = find_lanes(found);
         if (found) list[selection.count + count_before(ballot)] = entry;
         selection.count += count_lanes(ballot);
@@ -93,9 +93,9 @@ void search_tree() {
         --selection.depth;
         turns += TREE_FANOUT + 3u;
         uint node = stack_node[selection.depth];
-        float bound = stack_bound[selection.depth];
+        uvec3 bound = stack_bound[selection.depth];
         synchronize();
-        if (floatBitsToUint(bound) > selection.last.x) continue;
+        if (!is_before(bound, selection.last)) continue;
         if (find_level(node) < settings.leaf_level) {
             push_descendants(own, node);
         } else {
@@ -108,7 +108,7 @@ void search_tree() {
 // Words of a search: flag, count, depth, last, the stack and the list.
 uint my_slot;
 
-uint locate_save() { return my_slot * (6u + 2u * TREE_STACK_SIZE + 3u * LIST_CAPACITY); }
+uint locate_save() { return my_slot * (6u + 4u * TREE_STACK_SIZE + 3u * LIST_CAPACITY); }
 
 void start_search() {
     uint at = locate_save();
@@ -119,15 +119,15 @@ void start_search() {
                               uvec3(saved_searches[at + 3u], saved_searches[at + 4u], saved_searches[at + 5u]));
     if (LANE == 0u) {
         stack_node[0] = 1u;
-        stack_bound[0] = 0.0;
+        stack_bound[0] = uvec3(0u);
     }
     synchronize();
     at += 6u;
     for (uint i = LANE; i < selection.depth && is_resumed; i += WIDTH) {
-        stack_node[i] = saved_searches[at + 2u * i];
-        stack_bound[i] = uintBitsToFloat(saved_searches[at + 2u * i + 1u]);
+        stack_node[i] = saved_searches[at + 4u * i];
+        stack_bound[i] = uvec3(saved_searches[at + 4u * i + 1u], saved_searches[at + 4u * i + 2u], saved_searches[at + 4u * i + 3u]);
     }
-    at += 2u * TREE_STACK_SIZE;
+    at += 4u * TREE_STACK_SIZE;
     for (uint i = LANE; i < selection.count; i += WIDTH)
         list[i] = uvec3(saved_searches[at + 3u * i], saved_searches[at + 3u * i + 1u], saved_searches[at + 3u * i + 2u]);
     turns += (selection.depth + selection.count) / WIDTH + 2u;
@@ -146,10 +146,12 @@ void save_search() {
     }
     at += 6u;
     for (uint i = LANE; i < selection.depth; i += WIDTH) {
-        saved_searches[at + 2u * i] = stack_node[i];
-        saved_searches[at + 2u * i + 1u] = floatBitsToUint(stack_bound[i]);
+        saved_searches[at + 4u * i] = stack_node[i];
+        saved_searches[at + 4u * i + 1u] = stack_bound[i].x;
+        saved_searches[at + 4u * i + 2u] = stack_bound[i].y;
+        saved_searches[at + 4u * i + 3u] = stack_bound[i].z;
     }
-    at += 2u * TREE_STACK_SIZE;
+    at += 4u * TREE_STACK_SIZE;
     for (uint i = LANE; i < selection.count; i += WIDTH) {
         saved_searches[at + 3u * i] = list[i].x;
         saved_searches[at + 3u * i + 1u] = list[i].y;

@@ -6,6 +6,9 @@
 // sums in, and where other photons bring more along (define HAS_PAYLOAD) void load_payload(Candidate mine, uint position) for the
 // photon a lane holds of a tile, and void meet_payload(uint lane, float weight). CUT_TIES: see photons/find_radii.comp.
 // In and out: saved_walks (with SINGLY: a walk that is not over, and the sums so far).
+#ifdef CUT_TIES
+#define HAS_CUTS
+#endif
 #include "photons/visit_tiles.glsl"
 #pragma binding coherent uint saved_walks
 
@@ -99,6 +102,13 @@ bool stream_members(GatherSettings gather, bool has_query, vec4 radius) {
     member_map_size = gather.photon_count;
     member_radius = radius;
     lane_reach = member_r2 = has_query ? radius.x : -1.0;
+#ifdef CUT_TIES
+    // Of photons at just the radius all are members, none, or those up to a cut.
+    uvec2 cut = floatBitsToUint(radius.yz);
+    bool is_cut = has_query && cut.x != 0xffffffffu && cut != uvec2(0u);
+    lane_cut = is_cut ? uvec3(floatBitsToUint(radius.x), cut) : uvec3(0u);
+    lane_reach = is_cut ? -1.0 : lane_reach;
+#endif
     if (!resume_walk()) start_walk(gather.leaf_level);
     meet_leaves(gather.photon_count, gather.leaf_level);
     if (!is_walk_over()) save_walk();

@@ -3,7 +3,7 @@
 // queries reaches and visits the photons there, a subgroup's width (a tile) at a time.
 // Eight descendants are tested at once, one a lane; which of them remain to be entered is a byte for each step down,
 // kept in registers: on processors without branches shared memory would cost more than all the rest.
-// Define ONE_QUERY where all lanes have the same query.
+// Define ONE_QUERY where all lanes have the same query, HAS_CUTS where a query may find only what is before an entry.
 #include "photons/tree_texels.glsl"
 #include "photons/candidates.glsl"
 #include "shared/turns.glsl"
@@ -12,6 +12,9 @@
 #define LANE gl_LocalInvocationID.x
 
 float lane_reach; // squared, this lane's; negative: it takes no part
+#ifdef HAS_CUTS
+uvec3 lane_cut; // beside it: what is before this entry (photons/candidates.glsl); 0: nothing
+#endif
 
 // Where a walk stands. Steps down take three levels each, but for the first, which takes what is left.
 struct Walk {
@@ -49,6 +52,10 @@ uint test_descendants() {
 #define TEST(q) reached = reached || bound_measure(share_query(own, base + q), node) <= broadcast(lane_reach, base + q);
         TEST(0u) TEST(1u) TEST(2u) TEST(3u) TEST(4u) TEST(5u) TEST(6u) TEST(7u)
     }
+#endif
+#ifdef HAS_CUTS
+    for (uint q = any_lane(lane_cut.x > 0u || lane_cut.y > 0u || lane_cut.z > 0u) ? 0u : WIDTH; q < WIDTH; ++q)
+        reached = reached || is_before(bound_entry(share_query(own, q), node), share_entry(lane_cut, q));
 #endif
     return find_lanes(reached && LANE < (1u << levels)).x;
 }

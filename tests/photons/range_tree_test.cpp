@@ -103,6 +103,8 @@ void expect_bounds(const Read& tree, std::size_t heap, std::uint32_t rows) {
     ASSERT_EQ(glm::vec3(tree.nodes[heap].hi_axis), glm::vec3(box.hi)) << "node " << heap;
     ASSERT_EQ(glm::vec3(tree.normal_boxes[2 * heap]), glm::vec3(normals.lo)) << "node " << heap;
     ASSERT_EQ(glm::vec3(tree.normal_boxes[2 * heap + 1]), glm::vec3(normals.hi)) << "node " << heap;
+    const auto least = std::min_element(tree.arrays.order.begin() + first, tree.arrays.order.begin() + end);
+    ASSERT_EQ(std::bit_cast<std::int32_t>(tree.normal_boxes[2 * heap].w), *least) << "node " << heap;
     for (std::uint32_t row = 0; row < rows; ++row) {
         ASSERT_EQ(tree.ranges[2 * rows * heap + row], ranges[row].lo) << "node " << heap;
         ASSERT_EQ(tree.ranges[(2 * heap + 1) * rows + row], ranges[row].hi) << "node " << heap;

@@ -58,6 +58,30 @@ def test_ties_come_by_id() -> None:
     np.testing.assert_array_equal(distances, far.astype(np.float32))
 
 
+@pytest.mark.parametrize("k", [1, 50, 700])
+def test_ties_of_crowds_come_by_id(k: int) -> None:
+    """Some 500 photons at each of 12 places, several of which are equally far."""
+    random = np.random.default_rng(3)
+    positions = make_lattice(3)[random.integers(12, size=6_000)]
+    ids, _ = build(positions).neighbors(positions[:40], k)
+    np.testing.assert_array_equal(ids, twins.find_neighbors(positions, positions[:40], k)[0])
+    asked = np.arange(40)
+    ids, _ = build(positions).neighbors(asked, k)
+    np.testing.assert_array_equal(ids, twins.find_neighbors(positions, positions[:40], k, excluded=asked)[0])
+
+
+@pytest.mark.parametrize("columns", [1, 2])
+@pytest.mark.parametrize("k", [1, 50, 700])
+def test_ties_of_few_parameters_come_by_id(k: int, columns: int) -> None:
+    """Photons of discrete parameters, spread out in space."""
+    values = np.random.default_rng(4).integers(4, size=(6_000, columns)).astype(np.float64)
+    photons = build(make_random(6_000))
+    photons.set_parameters(values)
+    asked = np.arange(40)
+    ids, _ = photons.neighbors(asked, k, space="parameter")
+    np.testing.assert_array_equal(ids, twins.find_neighbors(values, values[:40], k, excluded=asked)[0])
+
+
 def test_photon_is_not_its_own_neighbor() -> None:
     positions = make_lattice(6)
     every = np.arange(len(positions))
