@@ -30,6 +30,7 @@ BASE = "primal_trajectory"
 READS_PARAMETERS = "isotropy"
 QUERIES, K, BETA, STEPS = 2_000, 50, 3.0, 5
 SECONDS = 600.0  # longest work
+COMPILE_SECONDS = 20.0  # what takes longer is not waiting for a compiler
 
 Work = Callable[[pl.PhotonMap, "Deadline"], object]
 
@@ -62,6 +63,12 @@ def find_layers(photons: pl.PhotonMap, deadline: Deadline) -> object:
     return photons.neighbors(ids, K, space="constrained", beta=BETA, progress=deadline)
 
 
+def find_in_parameters(photons: pl.PhotonMap, deadline: Deadline) -> object:
+    """Neighbors of the same photons in parameter space itself."""
+    ids = np.random.default_rng(1).integers(0, len(photons), QUERIES)
+    return photons.neighbors(ids, K, space="parameter", progress=deadline)
+
+
 def relax(photons: pl.PhotonMap, deadline: Deadline) -> object:
     """Some held steps."""
     return photons.relax(steps=STEPS, constraint="parameter", descriptor="pca", beta=BETA, progress=deadline)
@@ -70,6 +77,7 @@ def relax(photons: pl.PhotonMap, deadline: Deadline) -> object:
 WORKS: dict[str, Work] = {
     "β": find_beta,
     f"{QUERIES:,} neighbors in layers": find_layers,
+    f"{QUERIES:,} neighbors in parameter space": find_in_parameters,
     f"relax, {STEPS} steps": relax,
 }
 
@@ -99,6 +107,15 @@ def time_work(photons: pl.PhotonMap, work: Work, seconds: float) -> float | str:
     return time.perf_counter() - start
 
 
+def time_warm(photons: pl.PhotonMap, work: Work, seconds: float) -> float | str:
+    """Seconds of the second run where the first may have waited for the driver's compiler."""
+    first = time_work(photons, work, seconds)
+    if isinstance(first, str) or first > COMPILE_SECONDS:
+        return first
+    again = time_work(photons, work, seconds)
+    return min(first, again) if isinstance(again, float) else again
+
+
 def format_cell(found: float | str, base: float | str | None) -> str:
     """Seconds and their ratio to the base's."""
     if isinstance(found, str):
@@ -121,19 +138,17 @@ def measure_space(
     print(f"{columns} |", end="", flush=True)
     found: dict[str, float | str] = {}
     for name, work in WORKS.items():
-        found[name] = time_work(photons, work, seconds)
+        found[name] = time_warm(photons, work, seconds)
         print(f" {format_cell(found[name], base.get(name))} |", end="", flush=True)
     print(flush=True)
     return found
 
 
 def measure(name: str, count: int, spaces: list[str], seconds: float) -> None:
-    """All spaces on one map; primal trajectory comes first, once to warm up and once to compare with."""
+    """All spaces on one map; primal trajectory, to compare with, comes first."""
     photons = pl.trace_photons(load_scene(name), count, seed=1)
     label = f"{name} | {len(photons):,}"
     set_space(photons, BASE)
-    for work in WORKS.values():
-        time_work(photons, work, seconds)
     base = measure_space(photons, BASE, label, {}, seconds)
     for space in spaces:
         if space != BASE:
