@@ -26,8 +26,8 @@ struct KdTree {
     gpu::Buffer nodes;            // shared::TreeNode by heap index; entry 0 is unused
     gpu::Buffer positions;        // tree order: xyz, w bits: photon id
     gpu::Buffer normals;          // tree order: xyz unit, w bits: emitter
-    gpu::Buffer normal_boxes;     // by heap index: least, then greatest components of its photons' normals; w of the least: bits of
-                                  // the least photon id
+    gpu::Buffer normal_boxes; // by heap index: least, then greatest components of its photons' normals; w of the least:
+                              // bits of the least photon id
     std::uint32_t range_rows = 0; // 0: a tree of positions alone
     gpu::Buffer rows;             // tree order: range_rows vec4s a photon (layer number, parameters)
     gpu::Buffer ranges;           // by heap index: range_rows vec4s of least, then as many of greatest values

@@ -44,9 +44,9 @@ void prefer(float value, uint axis, inout float greatest, inout uint best) {
     greatest = max(greatest, value);
 }
 
-// The axis of greatest scaled spread; `greatest` is 0 where none has any.
+// The axis of greatest scaled spread; where none has any `greatest` is 0, and along that of the layer number all tie.
 uint choose_axis(Spread spread, out float greatest) {
-    uint best = 0u;
+    uint best = 3u;
     greatest = 0.0;
     vec3 position = find_spread(spread) * scales_at(0u).xyz * scales_at(0u).xyz;
     prefer(position.x, 0u, greatest, best);
