@@ -94,7 +94,11 @@ def optimal_beta(
         values = np.asarray(_engine.measure_isotropy(device, photons.upload(), k, callback))
     known = values[~np.isnan(values)]
     if len(known) == 0:
-        raise ArgumentError("no photon has an axis ratio: none has parameters and neighbors that differ in place")
+        named = ", ".join(repr(name) for name in photons.parameter_names)
+        raise ArgumentError(
+            f"no photon has an axis ratio: by {named} more than k photons are alike, or none has parameters, or all are "
+            "in one place; then every β gives the same layers, so give a number, or parameters that differ"
+        )
     edges = np.linspace(0.0, 1.0, BINS + 1)
     histogram = np.histogram(known, edges)[0].astype(np.int64)
     t_beta = float(np.quantile(known, clip))
