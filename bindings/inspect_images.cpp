@@ -69,7 +69,7 @@ nb::dict find_voronoi(OpenDevice& open, Photons& photons, const Scene& scene, co
     CellImage cells;
     Image painted = PythonProgress(std::move(progress)).run([&](const Progress& asked) {
         const SurfaceView view = see(open, scene, asked_view, asked);
-        cells = find_voronoi_cells(open.device, photons.map, open.workbench.find_tree(photons, asked), view, settings,
+        cells = find_voronoi_cells(open.device, photons.map, *open.workbench.find_tree(photons, asked), view, settings,
                                    asked);
         return paint_cells(cells, find_photon_colors(open.workbench, photons, color, asked));
     });
@@ -93,15 +93,16 @@ nb::dict find_kd(OpenDevice& open, Photons& photons, const Scene& scene, const n
     const auto depth = nb::cast<std::optional<std::uint32_t>>(given["depth"]);
     const ViewAsked asked_view = read_view(given);
     CellImage cells;
+    std::vector<NodeBox> boxes;
     Image painted = PythonProgress(std::move(progress)).run([&](const Progress& asked) {
         const SurfaceView view = see(open, scene, asked_view, asked);
-        const KdTree& tree = open.workbench.find_tree(photons, asked);
-        cells = find_kd_cells(open.device, photons.map, tree, view, depth, asked);
-        return paint_cells(cells, list_hash_colors(2ull << tree.leaf_level));
+        const std::shared_ptr<const KdTree> tree = open.workbench.find_tree(photons, asked);
+        cells = find_kd_cells(open.device, photons.map, *tree, view, depth, asked);
+        boxes = list_node_boxes(*tree, depth);
+        return paint_cells(cells, list_hash_colors(2ull << tree->leaf_level));
     });
-    const KdTree& tree = open.workbench.find_tree(photons);
     nb::dict row = describe_cells(std::move(cells), std::move(painted));
-    row["boxes"] = describe_boxes(list_node_boxes(tree, depth), photons.map.origin);
+    row["boxes"] = describe_boxes(boxes, photons.map.origin);
     return row;
 }
 

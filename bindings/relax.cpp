@@ -59,25 +59,6 @@ nb::dict step(OpenRelaxation& open, nb::object progress) {
     return row;
 }
 
-// The map with its new places, and the state columns by name; those that were not measured are left out.
-nb::tuple read(OpenRelaxation& open) {
-    RelaxedColumns columns = open.relaxation.read();
-    const bool has_constraint = columns.has_constraint;
-    const std::uint64_t off_surface_count = columns.off_surface_count;
-    const std::shared_ptr<Photons> photons = Workbench::take_relaxed(*open.photons, std::move(columns));
-    const std::shared_ptr<const RelaxedState> state = photons->state;
-    nb::dict arrays;
-    arrays["drift"] = share_array(state, state->drift, {3});
-    arrays["pressure"] = share_array(state, state->pressure, {});
-    if (has_constraint) {
-        arrays["constraint_basis"] = share_array(state, state->basis, {2, 3});
-        arrays["constraint_weights"] = share_array(state, state->weights, {2});
-        arrays["gradient"] = share_array(state, state->gradient, {3});
-        arrays["one_sidedness"] = share_array(state, state->one_sidedness, {});
-    }
-    return nb::make_tuple(photons, arrays, off_surface_count);
-}
-
 } // namespace
 
 void bind_relax(nb::module_& module) {
@@ -86,7 +67,26 @@ void bind_relax(nb::module_& module) {
         .def_prop_ro(
             "notes", [](const OpenRelaxation& open) { return open.relaxation.notes(); },
             "What makes parameters useless here, with the cure.")
-        .def("read", &read, "(map, state columns by photon id, photons off their surface).");
+        .def_prop_ro(
+            "off_surface", [](const OpenRelaxation& open) { return open.relaxation.count_off_surface(); },
+            "Photons that moved in their tangent plane.")
+        .def(
+            "sample_distances",
+            [](const OpenRelaxation& open, std::uint64_t count, std::uint32_t k) {
+                std::vector<float> distances = PythonProgress(nb::none()).run([&](const Progress& asked) {
+                    return open.relaxation.sample_distances(count, k, asked);
+                });
+                return own_array(std::move(distances), k);
+            },
+            nb::arg("count"), nb::arg("k"),
+            "Distances (m, k) of photons spread evenly over the map to their nearest, where they are now.")
+        .def(
+            "read",
+            [](const OpenRelaxation& open) {
+                nb::gil_scoped_release release;
+                return Workbench::take_relaxed(*open.photons, open.relaxation.read());
+            },
+            "The map as it is now.");
     module.def(
         "measure_isotropy",
         [](OpenDevice& open, Photons& photons, std::uint32_t k, nb::object progress) {

@@ -7,9 +7,9 @@ import logging
 from typing import Any, Generic, TypeVar, Unpack
 
 import numpy as np
+from numpy.typing import NDArray
 
 from photonloupe import _engine
-from photonloupe.device import open_device
 from photonloupe.device_photons import DevicePhotons
 from photonloupe.progress import ProgressLike, follow_progress
 from photonloupe.relax_settings import AllRelaxKeywords, check_settings
@@ -48,7 +48,6 @@ class Relaxation(Generic[PhotonsT]):
         self._source = photons
         self._settings = check_settings(photons, progress, **settings)
         self._rows: list[dict[str, Any]] = []
-        self._device = open_device(photons.device)
         self._scene = photons.find_surface() if self._settings["surface"] == "auto" else None
         native_scene = None if self._scene is None else self._scene._native
         native_settings = {
@@ -59,7 +58,7 @@ class Relaxation(Generic[PhotonsT]):
         }
         with follow_progress(progress) as callback:
             self._native = _engine.start_relaxation(
-                self._device._native, photons.upload(), native_scene, native_settings, callback
+                photons.device._native, photons._native, native_scene, native_settings, callback
             )
         for note in self.notes:
             LOG.warning(note)
@@ -108,22 +107,30 @@ class Relaxation(Generic[PhotonsT]):
     @property
     def report(self) -> dict[str, Any]:
         """Settings, one row per step, and where photons move: on their surface, or in tangent planes."""
-        return self._describe(self._native.read()[2])
+        return self._describe()
 
     @property
     def photons(self) -> PhotonsT:
         """The map as it is now, with constraint, drift and pressure."""
-        native, state, off_surface = self._native.read()
-        columns = {name: np.asarray(values) for name, values in state.items()}
-        return self._source.replace_positions(native, columns, self._describe(off_surface))
+        return self._source.replace(self._native.read(), self._describe())
 
-    def _describe(self, off_surface: int) -> dict[str, Any]:
+    def sample_distances(self, count: int, k: int) -> NDArray[np.float32]:
+        """Find how far the k nearest are of some photons, spread evenly over the map, where they are now.
+
+        Returns
+        -------
+        (m, k) float32
+            m, nearest first; at most `count` rows.
+        """
+        return np.asarray(self._native.sample_distances(count, k))
+
+    def _describe(self) -> dict[str, Any]:
         return {
             "settings": dict(self._settings),
             "steps": [dict(row) for row in self._rows],
             "surface": "tangent planes" if self._scene is None else str(self._scene.path),
             "notes": self.notes,
-            "off_surface": int(len(self._source) if self._scene is None else off_surface),
+            "off_surface": int(self._native.off_surface),
         }
 
 
