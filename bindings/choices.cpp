@@ -40,9 +40,8 @@ constexpr Choice<Descriptor> DESCRIPTORS[]{{"none", Descriptor::none},
                                            {"split", Descriptor::split}};
 constexpr Choice<Space> SPACES[]{{"world", Space::world}, {"parameter", Space::parameter}};
 constexpr Choice<RadiusSearch> SEARCHES[]{{"exact", RadiusSearch::exact}, {"carried", RadiusSearch::carried}};
-constexpr Choice<SearchSpace> SEARCH_SPACES[]{{"world", SearchSpace::world},
-                                                     {"parameter", SearchSpace::parameter},
-                                                     {"constrained", SearchSpace::constrained}};
+constexpr Choice<SearchSpace> SEARCH_SPACES[]{
+    {"world", SearchSpace::world}, {"parameter", SearchSpace::parameter}, {"constrained", SearchSpace::constrained}};
 
 } // namespace
 

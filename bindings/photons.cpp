@@ -82,22 +82,21 @@ std::shared_ptr<const RelaxedState> read_state(const nb::dict& columns) {
     for (const char* name : {"drift", "pressure", "constraint_basis", "constraint_weights", "gradient", "one_sidedness",
                              "traced_positions"})
         if (columns.contains(name))
-            return std::make_shared<const RelaxedState>(RelaxedState{
-                take_floats(columns, "traced_positions"), take_floats(columns, "drift"),
-                take_floats(columns, "pressure"), take_floats(columns, "constraint_basis"),
-                take_floats(columns, "constraint_weights"), take_floats(columns, "gradient"),
-                take_floats(columns, "one_sidedness")});
+            return std::make_shared<const RelaxedState>(
+                RelaxedState{take_floats(columns, "traced_positions"), take_floats(columns, "drift"),
+                             take_floats(columns, "pressure"), take_floats(columns, "constraint_basis"),
+                             take_floats(columns, "constraint_weights"), take_floats(columns, "gradient"),
+                             take_floats(columns, "one_sidedness")});
     return nullptr;
 }
 
 std::shared_ptr<Photons> make_photons(OpenDevice& open, const nb::dict& columns, const Axes& axes,
                                       const std::string& store, std::uint64_t emitted) {
     auto photons = std::make_shared<Photons>();
-    photons->map = make_map(open.device, {take_span<float>(columns, "positions"), take_span<float>(columns, "normals"),
-                                          take_span<float>(columns, "power"),
-                                          take_span<std::int32_t>(columns, "emitter"),
-                                          take_span<std::uint64_t>(columns, "emitted_index"),
-                                          take_span<std::int32_t>(columns, "object")});
+    photons->map = make_map(
+        open.device, {take_span<float>(columns, "positions"), take_span<float>(columns, "normals"),
+                      take_span<float>(columns, "power"), take_span<std::int32_t>(columns, "emitter"),
+                      take_span<std::uint64_t>(columns, "emitted_index"), take_span<std::int32_t>(columns, "object")});
     if (columns.contains("path_offsets"))
         photons->map.paths = make_paths(
             open.device,
@@ -166,7 +165,8 @@ void bind_photons(nb::module_& module) {
                "Upload checked columns as a photon map; axes as of its parameters.");
     module.def(
         "share_photons", [](OpenDevice&, const Photons& photons) { return share_photons(photons); }, nb::arg("device"),
-        nb::arg("photons"), nb::keep_alive<0, 1>(), "The same photons in the same memory, with parameters of their own.");
+        nb::arg("photons"), nb::keep_alive<0, 1>(),
+        "The same photons in the same memory, with parameters of their own.");
     module.def(
         "select_photons",
         [](OpenDevice& open, const Photons& photons, const Ids& ids) {

@@ -45,9 +45,7 @@ std::shared_ptr<OpenRelaxation> start(OpenDevice& open, std::shared_ptr<Photons>
     });
 }
 
-nb::dict step(OpenRelaxation& open, nb::object progress) {
-    const StepReport report =
-        PythonProgress(std::move(progress)).run([&](const Progress& asked) { return open.relaxation.step(asked); });
+nb::dict describe_step(const StepReport& report) {
     nb::dict row;
     row["step"] = report.step;
     row["tau"] = report.tau;
@@ -57,6 +55,23 @@ nb::dict step(OpenRelaxation& open, nb::object progress) {
     row["mean_displacement"] = report.mean_metres;
     row["flux_drift"] = report.flux_drift;
     return row;
+}
+
+nb::dict step(OpenRelaxation& open, nb::object progress) {
+    return describe_step(
+        PythonProgress(std::move(progress)).run([&](const Progress& asked) { return open.relaxation.step(asked); }));
+}
+
+nb::tuple relax(OpenDevice& open, Photons& photons, nb::object scene, const nb::dict& given, nb::object progress) {
+    const RelaxSettings settings = read_settings(given);
+    const Scene* surface = scene.is_none() ? nullptr : nb::cast<const Scene*>(scene);
+    const RelaxedRun run = PythonProgress(std::move(progress)).run([&](const Progress& asked) {
+        return open.workbench.relax_photons(photons, surface, settings, asked);
+    });
+    nb::list rows;
+    for (const StepReport& report : run.steps)
+        rows.append(describe_step(report));
+    return nb::make_tuple(run.photons, rows, run.notes, run.off_surface_count);
 }
 
 } // namespace
@@ -97,6 +112,10 @@ void bind_relax(nb::module_& module) {
         },
         nb::arg("device"), nb::arg("photons"), nb::arg("k"), nb::arg("progress").none() = nb::none(),
         "Axis ratios (n,) of the world positions of each photon's k neighbours in parameter space; NaN: none.");
+    module.def("relax_photons", &relax, nb::arg("device"), nb::arg("photons"), nb::arg("scene").none(),
+               nb::arg("settings"), nb::arg("progress").none() = nb::none(),
+               "All steps of a relaxation: the map, what each step did, notes, photons off their surface; settings as "
+               "start_relaxation.");
     module.def("start_relaxation", &start, nb::arg("device"), nb::arg("photons"), nb::arg("scene").none(),
                nb::arg("settings"), nb::arg("progress").none() = nb::none(), nb::keep_alive<0, 1>(),
                "Measure the constraint and stand ready; settings: steps, neighbors, over_relaxation, limit, repel, "

@@ -178,7 +178,7 @@ nb::dict describe_report(const BoundScript& self, const script::ScriptRun& run) 
     nb::list passes, faults;
     for (const script::LoopReport& loop : run.loops) {
         nb::dict row;
-        row["line"] = source.find_place(loop.loop->span.begin).line;
+        row["line"] = source.find_place(loop.loop.begin).line;
         row["kind"] = loop.is_parallel ? "parallel" : "serial";
         row["runs"] = loop.runs;
         row["milliseconds"] = loop.milliseconds;
@@ -216,16 +216,16 @@ nb::dict describe_report(const BoundScript& self, const script::ScriptRun& run) 
     return report;
 }
 
-nb::dict describe_run(const BoundScript& self, script::ScriptRun run) {
+nb::dict describe_run(const BoundScript& self, const script::ScriptRun& run) {
     nb::dict result;
     result["report"] = describe_report(self, run);
     nb::list histograms;
-    for (script::HistogramCounts& histogram : run.histograms) {
+    for (const script::HistogramCounts& histogram : run.histograms) {
         nb::dict row;
         row["name"] = histogram.name;
         row["low"] = histogram.low;
         row["high"] = histogram.high;
-        row["counts"] = own_array(std::vector<std::uint32_t>(std::move(histogram.counts)));
+        row["counts"] = own_array(std::vector<std::uint32_t>(histogram.counts));
         row["below"] = histogram.below;
         row["above"] = histogram.above;
         row["non_finite"] = histogram.non_finite;
@@ -240,9 +240,10 @@ nb::dict describe_run(const BoundScript& self, script::ScriptRun run) {
 nb::dict run(BoundScript& self, OpenDevice& open, Photons& photons, const nb::dict& given, nb::object progress) {
     const script::RunSettings settings = read_settings(given);
     const bool keeps = nb::cast<bool>(given["keep"]);
-    return describe_run(self, PythonProgress(std::move(progress)).run([&](const Progress& asked) {
+    const auto run = PythonProgress(std::move(progress)).run([&](const Progress& asked) {
         return open.workbench.run_script(photons, *self.compiled, settings, keeps, asked);
-    }));
+    });
+    return describe_run(self, *run);
 }
 
 nb::list list_builtins() {

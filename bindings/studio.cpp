@@ -181,8 +181,7 @@ void bind_work(nb::class_<Studio>& type) {
                        bool is_error) { self.deliver([=](Workspace& workspace) { workspace.say(text, is_error); }); })
         .def("deliver_photons", &deliver_photons, nb::arg("scene").none(), nb::arg("photons"),
              nb::arg("has_same_paths"))
-        .def("deliver_relaxed", &deliver_relaxed, nb::arg("photons"), nb::arg("steps"),
-             nb::arg("stopped_at").none())
+        .def("deliver_relaxed", &deliver_relaxed, nb::arg("photons"), nb::arg("steps"), nb::arg("stopped_at").none())
         .def("deliver_steps",
              [](Studio& self, const StepRows& rows) {
                  self.deliver([steps = read_steps(rows)](Workspace& workspace) { workspace.results.steps = steps; });

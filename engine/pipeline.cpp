@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Connects the stages and remembers what each was given.
+// Connects the stages and remembers what each gave.
 #include "pipeline.h"
 
 #include <utility>
@@ -11,20 +11,11 @@
 #include "photons/map_columns.h"
 #include "photons/select_photons.h"
 #include "photons/tree_kernels.h"
+#include "stage_keys.h"
 #include "trace/find_traced.h"
 
 namespace photonloupe {
 namespace {
-
-std::string make_key(const Scene& scene, const TraceSettings& settings) {
-    std::string key = scene.hash;
-    for (const std::uint64_t value :
-         {settings.count, settings.emitted, std::uint64_t{settings.seed}, static_cast<std::uint64_t>(settings.emission),
-          static_cast<std::uint64_t>(settings.store), std::uint64_t{settings.max_bounces},
-          std::uint64_t{settings.paths}})
-        key += '/' + std::to_string(value);
-    return key;
-}
 
 std::vector<ParameterAxis> list_axes(const std::vector<script::DeclaredParameter>& declared) {
     std::vector<ParameterAxis> axes;
@@ -41,6 +32,15 @@ SearchSpace choose_space(script::NeighborQuery::Space space) {
                                        : SearchSpace::constrained;
 }
 
+void take_script_columns(Photons& photons, const Photons& scripted) {
+    const std::lock_guard lock(*photons.mutex);
+    PhotonMap columns = share_map(scripted.map);
+    photons.map.parameters = std::move(columns.parameters);
+    photons.map.colors = std::move(columns.colors);
+    photons.map.given_colors = std::move(columns.given_colors);
+    photons.trees = scripted.trees;
+}
+
 // Compiles what a tree of so many photons needs.
 void expect_tree(gpu::Device& device, std::uint64_t photon_count) {
     device.compile_ahead(TreeKernels(0, device.limits().subgroup_size).list(photon_count));
@@ -49,44 +49,34 @@ void expect_tree(gpu::Device& device, std::uint64_t photon_count) {
 } // namespace
 
 std::shared_ptr<const SceneBuffers> Workbench::find_buffers(const Scene& scene) {
-    const std::lock_guard lock(m_mutex);
-    if (m_scene_hash != scene.hash) {
-        m_scene_hash.clear(); // an upload that fails leaves nothing half-remembered
-        m_scene_buffers.reset();
-        m_scene_buffers = std::make_shared<SceneBuffers>(upload_scene(m_device, scene));
-        m_scene_hash = scene.hash;
-    }
-    return m_scene_buffers;
+    const MemoKey key(scene.hash);
+    if (std::shared_ptr<const SceneBuffers> buffers = m_scene_buffers.recall(key))
+        return buffers;
+    m_scene_buffers.forget(); // not two scenes at once
+    return m_scene_buffers.find(key, [&] { return upload_scene(m_device, scene); });
 }
 
 std::shared_ptr<Photons> Workbench::trace_photons(const Scene& scene, const TraceSettings& settings,
                                                   const Progress& progress) {
-    const std::string key = make_key(scene, settings);
-    const auto hand_out = [](const std::shared_ptr<const Photons>& traced) {
-        std::shared_ptr<Photons> shared = share_photons(*traced);
-        shared->traced = traced;
-        return shared;
-    };
-    {
-        const std::lock_guard lock(m_mutex);
-        if (key == m_traced_key)
-            if (const std::shared_ptr<const Photons> traced = m_traced.lock())
-                return hand_out(traced);
-    }
+    const std::shared_ptr<const Photons> traced =
+        m_traced.find(make_key(scene, settings), [&] { return trace_anew(scene, settings, progress); });
+    std::shared_ptr<Photons> photons = share_photons(*traced);
+    photons->made_by = traced;
+    return photons;
+}
+
+Photons Workbench::trace_anew(const Scene& scene, const TraceSettings& settings, const Progress& progress) {
     // Most maps are looked at next; the kernels of the usual settings serve most others too. What is needed last is
     // named first.
     m_device.compile_ahead(list_render_kernels(scene, settings.store, {}));
     expect_tree(m_device, settings.count);
     m_device.compile_ahead({name_plot_kernel()});
     TracedPhotons traced = photonloupe::trace_photons(m_device, scene, *find_buffers(scene), settings, progress);
-    auto photons = std::make_shared<Photons>();
-    photons->map = std::move(traced.map);
-    photons->report = traced.report;
-    photons->store = settings.store;
-    const std::lock_guard lock(m_mutex);
-    m_traced = photons;
-    m_traced_key = key;
-    return hand_out(photons);
+    Photons photons;
+    photons.map = std::move(traced.map);
+    photons.report = traced.report;
+    photons.store = settings.store;
+    return photons;
 }
 
 void Workbench::record_paths(Photons& photons, const Scene& scene, TraceSettings settings, const Progress& progress) {
@@ -115,9 +105,9 @@ Neighbors Workbench::find_neighbors(Photons& photons, const NearestQuery& query,
     }
     if (query.space == SearchSpace::parameter) {
         const std::shared_ptr<const ParameterTree> tree = find_parameter_tree(photons, progress);
-        return find(look_in(*tree, Measure::parameters),
-                    query.ids ? ask_with_rows(photons.map, *tree->parameters, *query.ids)
-                              : ask_parameters_at(*tree->parameters, query.values));
+        return find(look_in(*tree, Measure::parameters), query.ids
+                                                             ? ask_with_rows(photons.map, *tree->parameters, *query.ids)
+                                                             : ask_parameters_at(*tree->parameters, query.values));
     }
     const std::shared_ptr<const ParameterTree> tree = find_layered_tree(photons, progress);
     const auto ask_with_radii = [&](std::span<const std::uint32_t> ids) {
@@ -197,12 +187,28 @@ std::vector<float> Workbench::measure_isotropy(Photons& photons, std::uint32_t k
     return photonloupe::measure_isotropy(m_device, *find_parameter_tree(photons, progress), k, progress);
 }
 
-script::ScriptRun Workbench::run_script(Photons& photons, const script::CompiledScript& script,
-                                        const script::RunSettings& settings, bool keeps, const Progress& progress) {
-    std::optional<ParameterColumns> before;
-    if (photons.map.parameters)
-        before = share_parameters(*photons.map.parameters);
-    const MapTrees trees = photons.trees;
+std::shared_ptr<const script::ScriptRun> Workbench::run_script(Photons& photons, const script::CompiledScript& script,
+                                                               const script::RunSettings& settings, bool keeps,
+                                                               const Progress& progress) {
+    MemoKey key = make_key(photons, script, settings, keeps);
+    std::shared_ptr<const ScriptedPhotons> scripted = m_scripted.recall(key);
+    if (scripted) {
+        take_script_columns(photons, *scripted->photons);
+    } else {
+        script::ScriptRun run = run_anew(photons, script, settings, keeps, progress);
+        const bool is_whole = run.stopped.empty(); // what time or a limit stopped may get farther
+        photons.scripted_by.reset();
+        scripted = std::make_shared<const ScriptedPhotons>(ScriptedPhotons{std::move(run), share_photons(photons)});
+        if (is_whole)
+            m_scripted.remember(std::move(key), scripted);
+    }
+    photons.scripted_by = scripted;
+    return {scripted, &scripted->run};
+}
+
+script::ScriptRun Workbench::run_anew(Photons& photons, const script::CompiledScript& script,
+                                      const script::RunSettings& settings, bool keeps, const Progress& progress) {
+    const std::shared_ptr<const Photons> before = share_photons(photons);
     const script::ScriptQueries queries{
         [&](script::NeighborQuery::Space space, std::span<const std::uint32_t> ids, std::uint32_t k, float beta) {
             return find_neighbors(photons, {choose_space(space), ids, {}, {}, k, beta}, progress).ids;
@@ -221,9 +227,7 @@ script::ScriptRun Workbench::run_script(Photons& photons, const script::Compiled
             set_colors(m_device, photons.map, *std::exchange(run.colors, std::nullopt));
         return run;
     } catch (...) {
-        const std::lock_guard lock(*photons.mutex);
-        photons.map.parameters = std::move(before);
-        photons.trees = trees;
+        take_script_columns(photons, *before);
         throw;
     }
 }
@@ -261,12 +265,35 @@ Relaxation Workbench::start_relaxation(Photons& photons, const Scene* scene, con
     return Relaxation(m_device, photons.map, trees, settings, surface, progress);
 }
 
+RelaxedRun Workbench::relax_photons(Photons& photons, const Scene* scene, const RelaxSettings& settings,
+                                    const Progress& progress) {
+    const std::shared_ptr<const RelaxedRun> relaxed = m_relaxed.find(make_key(photons, scene, settings), [&] {
+        Relaxation relaxation = start_relaxation(photons, scene, settings, progress);
+        RelaxedRun run;
+        while (relaxation.step_count() < settings.steps)
+            run.steps.push_back(relaxation.step(progress));
+        run.notes = relaxation.notes();
+        run.off_surface_count = relaxation.count_off_surface();
+        run.photons = take_relaxed(photons, relaxation.read());
+        return run;
+    });
+    RelaxedRun run = *relaxed;
+    run.photons = share_photons(*relaxed->photons);
+    run.photons->made_by = relaxed;
+    return run;
+}
+
 gpu::Buffer Workbench::estimate_irradiance(Photons& photons, std::span<const glm::vec4> points,
                                            std::span<const glm::vec4> normals, const EstimateSettings& settings,
                                            const Progress& progress) {
     require_k(settings.k);
-    return estimate_irradiance_at(m_device, photons.map.power_object, *find_tree(photons, progress), points, normals,
-                                  settings, progress);
+    return m_irradiance
+        .find(make_key(photons, points, normals, settings),
+              [&] {
+                  return estimate_irradiance_at(m_device, photons.map.power_object, *find_tree(photons, progress),
+                                                points, normals, settings, progress);
+              })
+        ->share();
 }
 
 Image Workbench::render_voronoi(const Scene& scene, Photons& photons, const RenderSettings& settings,
@@ -282,6 +309,20 @@ Image Workbench::render_voronoi(const Scene& scene, Photons& photons, const Rend
 
 Image Workbench::render(const Scene& scene, Photons* photons, const RenderSettings& settings,
                         const Progress& progress) {
+    return *m_image.find(make_key(scene, photons, settings),
+                         [&] { return render_anew(scene, photons, settings, progress); });
+}
+
+void Workbench::forget() {
+    m_traced.forget();
+    m_scripted.forget();
+    m_relaxed.forget();
+    m_irradiance.forget();
+    m_image.forget();
+}
+
+Image Workbench::render_anew(const Scene& scene, Photons* photons, const RenderSettings& settings,
+                             const Progress& progress) {
     if (!photons)
         return render_image(m_device, scene, *find_buffers(scene), nullptr, settings, progress);
     if (settings.mode == RenderMode::voronoi)

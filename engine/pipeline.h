@@ -8,8 +8,9 @@
 #include <optional>
 #include <span>
 
+#include "core/memo.h"
 #include "estimate/render_image.h"
-#include "photons.h"
+#include "known_photons.h"
 #include "photons/find_neighbors.h"
 #include "photons/layer_scale.h"
 #include "relax/isotropy.h"
@@ -39,12 +40,26 @@ struct NearestQuery {
     std::span<const float> low = {}, high = {};
 };
 
-// Runs the stages on one device and remembers their inputs: a stage whose inputs did not change does not run again.
+// What all steps of a relaxation gave.
+struct RelaxedRun {
+    std::shared_ptr<Photons> photons;
+    std::vector<StepReport> steps;
+    std::vector<std::string> notes;
+    std::uint64_t off_surface_count = 0;
+};
+
+// What a script gave, and photons with its columns; their values are no longer in `run`.
+struct ScriptedPhotons {
+    script::ScriptRun run;
+    std::shared_ptr<const Photons> photons;
+};
+
+// Runs the stages on one device, for any number of threads, and remembers what they gave last: a stage whose inputs did
+// not change does not run again.
 class Workbench {
 public:
     explicit Workbench(gpu::Device& device) : m_device(device) {}
 
-    // Traces, or hands out the living result of the same scene and settings.
     std::shared_ptr<Photons> trace_photons(const Scene& scene, const TraceSettings& settings, const Progress& progress);
 
     // Gives photons the paths they had, by tracing the same emitted indices again.
@@ -66,8 +81,13 @@ public:
 
     // Gives the photons the parameters and colors that a script computes; those that it does not set go, or are kept.
     // On an exception they keep what they have.
-    script::ScriptRun run_script(Photons& photons, const script::CompiledScript& script,
-                                 const script::RunSettings& settings, bool keeps, const Progress& progress);
+    std::shared_ptr<const script::ScriptRun> run_script(Photons& photons, const script::CompiledScript& script,
+                                                        const script::RunSettings& settings, bool keeps,
+                                                        const Progress& progress);
+
+    // All steps of a relaxation; `scene` may be null.
+    RelaxedRun relax_photons(Photons& photons, const Scene* scene, const RelaxSettings& settings,
+                             const Progress& progress);
 
     // Measures the constraint and stands ready for the first step; `scene` may be null. The photons must outlive it.
     Relaxation start_relaxation(Photons& photons, const Scene* scene, const RelaxSettings& settings,
@@ -86,6 +106,9 @@ public:
     // The scene on the device, kept until another one is asked for.
     std::shared_ptr<const SceneBuffers> find_buffers(const Scene& scene);
 
+    // All stages run again, whatever they are asked: for measuring.
+    void forget();
+
     gpu::Device& device() { return m_device; }
 
 private:
@@ -96,12 +119,18 @@ private:
     Image render_voronoi(const Scene& scene, Photons& photons, const RenderSettings& settings,
                          const Progress& progress);
 
+    Photons trace_anew(const Scene& scene, const TraceSettings& settings, const Progress& progress);
+    script::ScriptRun run_anew(Photons& photons, const script::CompiledScript& script,
+                               const script::RunSettings& settings, bool keeps, const Progress& progress);
+    Image render_anew(const Scene& scene, Photons* photons, const RenderSettings& settings, const Progress& progress);
+
     gpu::Device& m_device;
-    std::mutex m_mutex; // of what is remembered
-    std::string m_scene_hash;                            // of m_scene_buffers
-    std::shared_ptr<const SceneBuffers> m_scene_buffers; // a relaxation keeps them as long as it lives
-    std::string m_traced_key;                            // scene and settings of m_traced
-    std::weak_ptr<Photons> m_traced;
+    Memo<SceneBuffers> m_scene_buffers{Lifetime::until_next};
+    Memo<Photons> m_traced{Lifetime::while_held}; // by those that share its columns
+    Memo<ScriptedPhotons> m_scripted{Lifetime::while_held};
+    Memo<RelaxedRun> m_relaxed{Lifetime::while_held};
+    Memo<gpu::Buffer> m_irradiance{Lifetime::until_next};
+    Memo<Image> m_image{Lifetime::until_next};
 };
 
 } // namespace photonloupe

@@ -122,8 +122,8 @@ void set_colors(gpu::Device& device, PhotonMap& map, std::vector<float> values) 
     const std::size_t count = map.parameters ? map.parameters->count : 0;
     std::vector<glm::vec4> packed(values.size() / 3, glm::vec4(UNSET_GREY, UNSET_GREY, UNSET_GREY, 0.0f));
     for (std::size_t i = 0; i < packed.size(); ++i) {
-        const std::span<const float> own = count ? std::span(*map.parameters->given).subspan(i * count, count)
-                                                 : std::span<const float>{};
+        const std::span<const float> own =
+            count ? std::span(*map.parameters->given).subspan(i * count, count) : std::span<const float>{};
         if (!std::isnan(values[3 * i]) && std::none_of(own.begin(), own.end(), [](float v) { return std::isnan(v); }))
             packed[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2], 1.0f};
     }

@@ -54,8 +54,8 @@ struct PhotonMap {
     gpu::Buffer power_object;         // rgb flux in W, w bits: object
     std::optional<PathColumns> paths; // only when asked for
     std::optional<ParameterColumns> parameters;
-    std::optional<gpu::Buffer> colors; // rgb as a script encoded them, grey where it did not; w 1: set
-    SharedFloats given_colors;         // rgb a photon as the script gave them, NaN: none; null: no colors
+    std::optional<gpu::Buffer> colors;       // rgb as a script encoded them, grey where it did not; w 1: set
+    SharedFloats given_colors;               // rgb a photon as the script gave them, NaN: none; null: no colors
     std::vector<std::uint64_t> long_indices; // emitted indices, where one is too large for `normal_index`
 };
 

@@ -51,7 +51,7 @@ PathColumns select_paths(gpu::Device& device, const PathColumns& paths, std::uin
             throw Error("the paths of these photons have more than 2^32 - 1 vertices; take fewer");
         some_starts.push_back(static_cast<std::uint32_t>(some_vertices.size()));
     }
-    PathColumns some{some_vertices.size(),   {}, {}, {}, paths.has_normals, paths.has_interactions, paths.has_objects,
+    PathColumns some{some_vertices.size(), {}, {}, {}, paths.has_normals, paths.has_interactions, paths.has_objects,
                      paths.has_scatter};
     some.starts = gpu::make_buffer(device, some_starts, "path starts");
     some.vertices = gpu::make_buffer(device, some_vertices, "path vertices");

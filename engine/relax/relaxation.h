@@ -43,8 +43,8 @@ struct RelaxTrees {
 class Relaxation {
 public:
     // Measures the constraint. Without a surface's scene photons move in their tangent planes.
-    Relaxation(gpu::Device& device, const PhotonMap& photons, const RelaxTrees& trees,
-               const RelaxSettings& settings, RelaxSurface surface, const Progress& progress);
+    Relaxation(gpu::Device& device, const PhotonMap& photons, const RelaxTrees& trees, const RelaxSettings& settings,
+               RelaxSurface surface, const Progress& progress);
 
     // One step (Jacobi: all photons see the places before it).
     StepReport step(const Progress& progress);

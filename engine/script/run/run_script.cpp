@@ -252,8 +252,7 @@ std::vector<DeclaredParameter> list_declared(const ScriptRun& run) {
 }
 
 ScriptRun run_script(gpu::Device& device, const PhotonMap& photons, const CompiledScript& script,
-                     const RunSettings& settings, bool keeps, const ScriptQueries& queries,
-                     const Progress& progress) {
+                     const RunSettings& settings, bool keeps, const ScriptQueries& queries, const Progress& progress) {
     require_script(script);
     return Run(device, photons, script, settings, queries, progress).finish(keeps);
 }

@@ -44,9 +44,9 @@ struct ScriptQueries {
     std::function<void(std::span<const float> values, const std::vector<DeclaredParameter>&)> set_parameters;
 };
 
-// Where it `keeps`, what the map has stays until the script replaces it. Throws Error for values that are not exposed or out of range, and what devices throw.
+// Where it `keeps`, what the map has stays until the script replaces it. Throws Error for values that are not exposed
+// or out of range, and what devices throw.
 ScriptRun run_script(gpu::Device& device, const PhotonMap& photons, const CompiledScript& script,
-                     const RunSettings& settings, bool keeps, const ScriptQueries& queries,
-                     const Progress& progress);
+                     const RunSettings& settings, bool keeps, const ScriptQueries& queries, const Progress& progress);
 
 } // namespace photonloupe::script

@@ -36,7 +36,9 @@ struct Photons {
     Store store = Store::caustic;
     std::shared_ptr<const RelaxedState> state; // null: neither constrained nor relaxed
     MapTrees trees;
-    std::shared_ptr<const Photons> traced; // the same as it was traced, and nothing since
+    // Two have the same if they differ in parameters and colors alone.
+    std::shared_ptr<const void> identity = std::make_shared<char>();
+    std::shared_ptr<const void> made_by, scripted_by; // results of stages, remembered as long as it lives
     std::unique_ptr<std::recursive_mutex> mutex = std::make_unique<std::recursive_mutex>(); // of the trees
 };
 
@@ -44,7 +46,8 @@ struct Photons {
 std::shared_ptr<Photons> share_photons(const Photons& photons);
 
 // Some of the photons, in the order of their ids, with all columns there are.
-std::shared_ptr<Photons> select_photons(gpu::Device& device, const Photons& photons, std::span<const std::uint32_t> ids);
+std::shared_ptr<Photons> select_photons(gpu::Device& device, const Photons& photons,
+                                        std::span<const std::uint32_t> ids);
 
 // Values of all photons, a row each; without axes it has none any more.
 void set_parameters(gpu::Device& device, Photons& photons, std::vector<float> values, std::vector<ParameterAxis> axes);

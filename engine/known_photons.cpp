@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copies of maps that share memory, and parts of maps.
-#include "photons.h"
+#include "known_photons.h"
 
 #include "photons/map_columns.h"
 #include "photons/select_photons.h"
@@ -15,7 +15,9 @@ std::shared_ptr<Photons> share_photons(const Photons& photons) {
     shared->store = photons.store;
     shared->state = photons.state;
     shared->trees = photons.trees;
-    shared->traced = photons.traced;
+    shared->identity = photons.identity;
+    shared->made_by = photons.made_by;
+    shared->scripted_by = photons.scripted_by;
     return shared;
 }
 
@@ -28,9 +30,8 @@ std::shared_ptr<Photons> select_photons(gpu::Device& device, const Photons& phot
     if (!photons.state)
         return some;
     RelaxedState state;
-    for (const auto field :
-         {&RelaxedState::traced, &RelaxedState::drift, &RelaxedState::pressure, &RelaxedState::basis,
-          &RelaxedState::weights, &RelaxedState::gradient, &RelaxedState::one_sidedness})
+    for (const auto field : {&RelaxedState::traced, &RelaxedState::drift, &RelaxedState::pressure, &RelaxedState::basis,
+                             &RelaxedState::weights, &RelaxedState::gradient, &RelaxedState::one_sidedness})
         state.*field = select_rows(*photons.state.*field, photons.map.count, ids);
     some->state = std::make_shared<const RelaxedState>(std::move(state));
     return some;
