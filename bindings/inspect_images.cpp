@@ -116,10 +116,13 @@ nb::dict plot(OpenDevice& open, Photons& photons, const nb::dict& given, std::op
     settings.x_range = nb::cast<Range2>(given["x_range"]);
     settings.y_range = nb::cast<Range2>(given["y_range"]);
     settings.dense_from = nb::cast<std::uint32_t>(given["dense_from"]);
-    const Column x = find_column(open.workbench, photons, nb::cast<std::string>(given["x"]));
-    const Column y = find_column(open.workbench, photons, nb::cast<std::string>(given["y"]));
-    const std::vector<glm::vec3> colors =
-        find_photon_colors(open.workbench, photons, nb::cast<std::string>(given["color"]));
+    const auto names = std::array{nb::cast<std::string>(given["x"]), nb::cast<std::string>(given["y"]),
+                                  nb::cast<std::string>(given["color"])};
+    const auto [x, y, colors] = PythonProgress(nb::none()).run([&](const Progress& asked) {
+        return std::tuple(find_column(open.workbench, photons, names[0], asked),
+                          find_column(open.workbench, photons, names[1], asked),
+                          find_photon_colors(open.workbench, photons, names[2], asked));
+    });
     ScatterPlot made = plot_scatter(x, y, colors, selection ? &*selection : nullptr, settings);
     std::vector<double> pixels;
     for (std::size_t i = 0; i < x.values.size(); ++i) {

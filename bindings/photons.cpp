@@ -147,6 +147,7 @@ nb::tuple find_near(OpenDevice& open, Photons& photons, std::optional<Points> po
 }
 
 void give_parameters(OpenDevice& open, Photons& photons, const Values& values, const Axes& axes) {
+    nb::gil_scoped_release release; // who builds a tree meanwhile may report to Python
     set_parameters(open.device, photons, {values.data(), values.data() + values.size()}, read_axes(axes));
 }
 
@@ -165,7 +166,7 @@ void bind_photons(nb::module_& module) {
                "Upload checked columns as a photon map; axes as of its parameters.");
     module.def(
         "share_photons", [](OpenDevice&, const Photons& photons) { return share_photons(photons); }, nb::arg("device"),
-        nb::arg("photons"), nb::keep_alive<0, 1>(),
+        nb::arg("photons"), nb::keep_alive<0, 1>(), nb::call_guard<nb::gil_scoped_release>(),
         "The same photons in the same memory, with parameters of their own.");
     module.def(
         "select_photons",
