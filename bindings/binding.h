@@ -14,6 +14,7 @@
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/vector.h>
 
@@ -113,6 +114,7 @@ void bind_device(nb::module_& module);
 void bind_scene(nb::module_& module);
 void bind_trace(nb::module_& module);
 void bind_photons(nb::module_& module);
+void bind_columns(nb::class_<Photons>& type);
 void bind_script(nb::module_& module);
 void bind_relax(nb::module_& module);
 void bind_estimate(nb::module_& module);

@@ -40,9 +40,8 @@ constexpr Choice<Descriptor> DESCRIPTORS[]{{"none", Descriptor::none},
                                            {"split", Descriptor::split}};
 constexpr Choice<Space> SPACES[]{{"world", Space::world}, {"parameter", Space::parameter}};
 constexpr Choice<RadiusSearch> SEARCHES[]{{"exact", RadiusSearch::exact}, {"carried", RadiusSearch::carried}};
-constexpr Choice<inspect::LoupeSpace> LOUPE_SPACES[]{{"world", inspect::LoupeSpace::world},
-                                                     {"parameter", inspect::LoupeSpace::parameter},
-                                                     {"constrained", inspect::LoupeSpace::constrained}};
+constexpr Choice<SearchSpace> SEARCH_SPACES[]{
+    {"world", SearchSpace::world}, {"parameter", SearchSpace::parameter}, {"constrained", SearchSpace::constrained}};
 
 } // namespace
 
@@ -74,8 +73,8 @@ RadiusSearch parse_search(const std::string& name) {
     return choose("search", name, SEARCHES);
 }
 
-inspect::LoupeSpace parse_loupe_space(const std::string& name) {
-    return choose("space", name, LOUPE_SPACES);
+SearchSpace parse_search_space(const std::string& name) {
+    return choose("space", name, SEARCH_SPACES);
 }
 
 } // namespace photonloupe::bindings

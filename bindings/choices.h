@@ -4,10 +4,7 @@
 
 #include <string>
 
-#include "estimate/render_image.h"
-#include "inspect/loupe.h"
-#include "relax/settings.h"
-#include "trace/trace_photons.h"
+#include "pipeline.h"
 
 namespace photonloupe::bindings {
 
@@ -19,6 +16,6 @@ Store parse_store(const std::string& name);
 Descriptor parse_descriptor(const std::string& name);
 Space parse_space(const std::string& name);
 RadiusSearch parse_search(const std::string& name);
-inspect::LoupeSpace parse_loupe_space(const std::string& name); // also of neighbors
+SearchSpace parse_search_space(const std::string& name);
 
 } // namespace photonloupe::bindings

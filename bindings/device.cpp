@@ -67,6 +67,9 @@ void bind_device(nb::module_& module) {
                  row["message"] = test.message;
                  return row;
              })
+        .def(
+            "forget", [](OpenDevice& open) { open.workbench.forget(); },
+            "All stages run again, whatever they are asked.")
         .def("timings", &list_timings);
     // Before the interpreter goes, as it may leave devices behind.
     nb::module_::import_("atexit").attr("register")(nb::cpp_function([] { gpu::CompileAhead::stop_all(); }));

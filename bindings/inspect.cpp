@@ -56,7 +56,7 @@ nb::object take_vectors(const std::vector<glm::vec3>& vectors, const std::array<
 
 LoupeQuery read_query(const nb::dict& given) {
     LoupeQuery query;
-    query.space = parse_loupe_space(nb::cast<std::string>(given["space"]));
+    query.space = parse_search_space(nb::cast<std::string>(given["space"]));
     query.k = nb::cast<std::uint32_t>(given["k"]);
     query.beta = nb::cast<float>(given["beta"]);
     query.photon = nb::cast<std::optional<std::uint32_t>>(given["photon"]);

@@ -69,7 +69,7 @@ nb::dict find_voronoi(OpenDevice& open, Photons& photons, const Scene& scene, co
     CellImage cells;
     Image painted = PythonProgress(std::move(progress)).run([&](const Progress& asked) {
         const SurfaceView view = see(open, scene, asked_view, asked);
-        cells = find_voronoi_cells(open.device, photons.map, open.workbench.find_tree(photons, asked), view, settings,
+        cells = find_voronoi_cells(open.device, photons.map, *open.workbench.find_tree(photons, asked), view, settings,
                                    asked);
         return paint_cells(cells, find_photon_colors(open.workbench, photons, color, asked));
     });
@@ -93,15 +93,16 @@ nb::dict find_kd(OpenDevice& open, Photons& photons, const Scene& scene, const n
     const auto depth = nb::cast<std::optional<std::uint32_t>>(given["depth"]);
     const ViewAsked asked_view = read_view(given);
     CellImage cells;
+    std::vector<NodeBox> boxes;
     Image painted = PythonProgress(std::move(progress)).run([&](const Progress& asked) {
         const SurfaceView view = see(open, scene, asked_view, asked);
-        const KdTree& tree = open.workbench.find_tree(photons, asked);
-        cells = find_kd_cells(open.device, photons.map, tree, view, depth, asked);
-        return paint_cells(cells, list_hash_colors(2ull << tree.leaf_level));
+        const std::shared_ptr<const KdTree> tree = open.workbench.find_tree(photons, asked);
+        cells = find_kd_cells(open.device, photons.map, *tree, view, depth, asked);
+        boxes = list_node_boxes(*tree, depth);
+        return paint_cells(cells, list_hash_colors(2ull << tree->leaf_level));
     });
-    const KdTree& tree = open.workbench.find_tree(photons);
     nb::dict row = describe_cells(std::move(cells), std::move(painted));
-    row["boxes"] = describe_boxes(list_node_boxes(tree, depth), photons.map.origin);
+    row["boxes"] = describe_boxes(boxes, photons.map.origin);
     return row;
 }
 
@@ -115,10 +116,13 @@ nb::dict plot(OpenDevice& open, Photons& photons, const nb::dict& given, std::op
     settings.x_range = nb::cast<Range2>(given["x_range"]);
     settings.y_range = nb::cast<Range2>(given["y_range"]);
     settings.dense_from = nb::cast<std::uint32_t>(given["dense_from"]);
-    const Column x = find_column(open.workbench, photons, nb::cast<std::string>(given["x"]));
-    const Column y = find_column(open.workbench, photons, nb::cast<std::string>(given["y"]));
-    const std::vector<glm::vec3> colors =
-        find_photon_colors(open.workbench, photons, nb::cast<std::string>(given["color"]));
+    const auto names = std::array{nb::cast<std::string>(given["x"]), nb::cast<std::string>(given["y"]),
+                                  nb::cast<std::string>(given["color"])};
+    const auto [x, y, colors] = PythonProgress(nb::none()).run([&](const Progress& asked) {
+        return std::tuple(find_column(open.workbench, photons, names[0], asked),
+                          find_column(open.workbench, photons, names[1], asked),
+                          find_photon_colors(open.workbench, photons, names[2], asked));
+    });
     ScatterPlot made = plot_scatter(x, y, colors, selection ? &*selection : nullptr, settings);
     std::vector<double> pixels;
     for (std::size_t i = 0; i < x.values.size(); ++i) {

@@ -45,9 +45,7 @@ std::shared_ptr<OpenRelaxation> start(OpenDevice& open, std::shared_ptr<Photons>
     });
 }
 
-nb::dict step(OpenRelaxation& open, nb::object progress) {
-    const StepReport report =
-        PythonProgress(std::move(progress)).run([&](const Progress& asked) { return open.relaxation.step(asked); });
+nb::dict describe_step(const StepReport& report) {
     nb::dict row;
     row["step"] = report.step;
     row["tau"] = report.tau;
@@ -59,23 +57,21 @@ nb::dict step(OpenRelaxation& open, nb::object progress) {
     return row;
 }
 
-// The map with its new places, and the state columns by name; those that were not measured are left out.
-nb::tuple read(OpenRelaxation& open) {
-    RelaxedColumns columns = open.relaxation.read();
-    const bool has_constraint = columns.has_constraint;
-    const std::uint64_t off_surface_count = columns.off_surface_count;
-    const std::shared_ptr<Photons> photons = Workbench::take_relaxed(*open.photons, std::move(columns));
-    const std::shared_ptr<const RelaxedState> state = photons->state;
-    nb::dict arrays;
-    arrays["drift"] = share_array(state, state->drift, {3});
-    arrays["pressure"] = share_array(state, state->pressure, {});
-    if (has_constraint) {
-        arrays["constraint_basis"] = share_array(state, state->basis, {2, 3});
-        arrays["constraint_weights"] = share_array(state, state->weights, {2});
-        arrays["gradient"] = share_array(state, state->gradient, {3});
-        arrays["one_sidedness"] = share_array(state, state->one_sidedness, {});
-    }
-    return nb::make_tuple(photons, arrays, off_surface_count);
+nb::dict step(OpenRelaxation& open, nb::object progress) {
+    return describe_step(
+        PythonProgress(std::move(progress)).run([&](const Progress& asked) { return open.relaxation.step(asked); }));
+}
+
+nb::tuple relax(OpenDevice& open, Photons& photons, nb::object scene, const nb::dict& given, nb::object progress) {
+    const RelaxSettings settings = read_settings(given);
+    const Scene* surface = scene.is_none() ? nullptr : nb::cast<const Scene*>(scene);
+    const RelaxedRun run = PythonProgress(std::move(progress)).run([&](const Progress& asked) {
+        return open.workbench.relax_photons(photons, surface, settings, asked);
+    });
+    nb::list rows;
+    for (const StepReport& report : run.steps)
+        rows.append(describe_step(report));
+    return nb::make_tuple(run.photons, rows, run.notes, run.off_surface_count);
 }
 
 } // namespace
@@ -86,7 +82,26 @@ void bind_relax(nb::module_& module) {
         .def_prop_ro(
             "notes", [](const OpenRelaxation& open) { return open.relaxation.notes(); },
             "What makes parameters useless here, with the cure.")
-        .def("read", &read, "(map, state columns by photon id, photons off their surface).");
+        .def_prop_ro(
+            "off_surface", [](const OpenRelaxation& open) { return open.relaxation.count_off_surface(); },
+            "Photons that moved in their tangent plane.")
+        .def(
+            "sample_distances",
+            [](const OpenRelaxation& open, std::uint64_t count, std::uint32_t k) {
+                std::vector<float> distances = PythonProgress(nb::none()).run([&](const Progress& asked) {
+                    return open.relaxation.sample_distances(count, k, asked);
+                });
+                return own_array(std::move(distances), k);
+            },
+            nb::arg("count"), nb::arg("k"),
+            "Distances (m, k) of photons spread evenly over the map to their nearest, where they are now.")
+        .def(
+            "read",
+            [](const OpenRelaxation& open) {
+                nb::gil_scoped_release release;
+                return Workbench::take_relaxed(*open.photons, open.relaxation.read());
+            },
+            "The map as it is now.");
     module.def(
         "measure_isotropy",
         [](OpenDevice& open, Photons& photons, std::uint32_t k, nb::object progress) {
@@ -97,6 +112,10 @@ void bind_relax(nb::module_& module) {
         },
         nb::arg("device"), nb::arg("photons"), nb::arg("k"), nb::arg("progress").none() = nb::none(),
         "Axis ratios (n,) of the world positions of each photon's k neighbours in parameter space; NaN: none.");
+    module.def("relax_photons", &relax, nb::arg("device"), nb::arg("photons"), nb::arg("scene").none(),
+               nb::arg("settings"), nb::arg("progress").none() = nb::none(),
+               "All steps of a relaxation: the map, what each step did, notes, photons off their surface; settings as "
+               "start_relaxation.");
     module.def("start_relaxation", &start, nb::arg("device"), nb::arg("photons"), nb::arg("scene").none(),
                nb::arg("settings"), nb::arg("progress").none() = nb::none(), nb::keep_alive<0, 1>(),
                "Measure the constraint and stand ready; settings: steps, neighbors, over_relaxation, limit, repel, "

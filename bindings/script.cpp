@@ -178,7 +178,7 @@ nb::dict describe_report(const BoundScript& self, const script::ScriptRun& run) 
     nb::list passes, faults;
     for (const script::LoopReport& loop : run.loops) {
         nb::dict row;
-        row["line"] = source.find_place(loop.loop->span.begin).line;
+        row["line"] = source.find_place(loop.loop.begin).line;
         row["kind"] = loop.is_parallel ? "parallel" : "serial";
         row["runs"] = loop.runs;
         row["milliseconds"] = loop.milliseconds;
@@ -216,65 +216,34 @@ nb::dict describe_report(const BoundScript& self, const script::ScriptRun& run) 
     return report;
 }
 
-nb::dict describe_run(const BoundScript& self, script::ScriptRun run) {
+nb::dict describe_run(const BoundScript& self, const script::ScriptRun& run) {
     nb::dict result;
     result["report"] = describe_report(self, run);
-    nb::list parameters, histograms;
-    for (const script::ParameterResult& parameter : run.parameters) {
-        nb::dict row;
-        row["name"] = parameter.declared.name;
-        row["low"] = parameter.declared.low;
-        row["high"] = parameter.declared.high;
-        row["periodic"] = parameter.declared.is_periodic;
-        parameters.append(row);
-    }
-    for (script::HistogramCounts& histogram : run.histograms) {
+    nb::list histograms;
+    for (const script::HistogramCounts& histogram : run.histograms) {
         nb::dict row;
         row["name"] = histogram.name;
         row["low"] = histogram.low;
         row["high"] = histogram.high;
-        row["counts"] = own_array(std::vector<std::uint32_t>(std::move(histogram.counts)));
+        row["counts"] = own_array(std::vector<std::uint32_t>(histogram.counts));
         row["below"] = histogram.below;
         row["above"] = histogram.above;
         row["non_finite"] = histogram.non_finite;
         histograms.append(row);
     }
-    result["parameters"] = parameters;
-    result["values"] = own_array(std::move(run.values), std::max<std::size_t>(run.parameters.size(), 1));
-    result["colors"] = run.colors ? nb::cast(own_array(std::move(*run.colors), 3)) : nb::none();
     result["histograms"] = histograms;
     result["prints"] = run.prints;
     result["exposed"] = run.exposed;
     return result;
 }
 
-using Values = nb::ndarray<nb::numpy, const float, nb::ndim<2>, nb::c_contig>;
-
-// What the map has, where the run keeps it.
-std::optional<script::KeptColumns> read_kept(const nb::dict& given) {
-    if (!nb::cast<bool>(given["keep"]))
-        return std::nullopt;
-    script::KeptColumns kept;
-    for (nb::handle row : nb::cast<nb::list>(given["parameters"]))
-        kept.declared.push_back({nb::cast<std::string>(row["name"]), nb::cast<float>(row["low"]),
-                                 nb::cast<float>(row["high"]), nb::cast<bool>(row["periodic"])});
-    const auto take = [&](const char* name, std::vector<float>& target) {
-        if (given[name].is_none())
-            return;
-        const Values values = nb::cast<Values>(given[name]);
-        target.assign(values.data(), values.data() + values.size());
-    };
-    take("old_values", kept.values);
-    take("old_colors", kept.colors);
-    return kept;
-}
-
 nb::dict run(BoundScript& self, OpenDevice& open, Photons& photons, const nb::dict& given, nb::object progress) {
     const script::RunSettings settings = read_settings(given);
-    const std::optional<script::KeptColumns> kept = read_kept(given);
-    return describe_run(self, PythonProgress(std::move(progress)).run([&](const Progress& asked) {
-        return open.workbench.run_script(photons, *self.compiled, settings, kept ? &*kept : nullptr, asked);
-    }));
+    const bool keeps = nb::cast<bool>(given["keep"]);
+    const auto run = PythonProgress(std::move(progress)).run([&](const Progress& asked) {
+        return open.workbench.run_script(photons, *self.compiled, settings, keeps, asked);
+    });
+    return describe_run(self, *run);
 }
 
 nb::list list_builtins() {
@@ -315,8 +284,7 @@ void bind_script(nb::module_& module) {
         .def("spirv", &list_spirv, "Every compute pass as SPIR-V.")
         .def("run", &run, nb::arg("device"), nb::arg("photons"), nb::arg("settings"),
              nb::arg("progress").none() = nb::none(),
-             "Run over a map; settings: values, keep, seed, fuel, exhausted, seconds, and what keep keeps: parameters, "
-             "old_values, old_colors.");
+             "Run over a map; settings: values, keep, seed, fuel, exhausted, seconds.");
     module.def("list_script_builtins", &list_builtins, "Every predefined call: name, signature, group, doc.");
     module.def("list_script_codes", &list_codes, "Every diagnostic code with its meaning.");
 }

@@ -85,6 +85,7 @@ void select(Studio& self, std::optional<std::vector<std::uint32_t>> ids) {
 
 void deliver_photons(Studio& self, std::shared_ptr<const Scene> scene, std::shared_ptr<Photons> photons,
                      bool has_same_paths) {
+    run_free([&] { self.workspace().bench.build_view_trees(*photons); });
     self.deliver([scene = std::move(scene), photons = std::move(photons), has_same_paths](Workspace& workspace) {
         workspace.take_photons(scene, photons, has_same_paths);
     });
@@ -101,6 +102,7 @@ std::vector<studio::StepResult> read_steps(const StepRows& rows) {
 
 void deliver_relaxed(Studio& self, std::shared_ptr<Photons> photons, const StepRows& rows,
                      std::optional<std::uint32_t> stopped_at) {
+    run_free([&] { self.workspace().bench.build_view_trees(*photons); });
     self.deliver([photons = std::move(photons), steps = read_steps(rows), stopped_at](Workspace& workspace) {
         workspace.take_relaxed(photons, steps);
         if (stopped_at)
@@ -179,8 +181,7 @@ void bind_work(nb::class_<Studio>& type) {
                        bool is_error) { self.deliver([=](Workspace& workspace) { workspace.say(text, is_error); }); })
         .def("deliver_photons", &deliver_photons, nb::arg("scene").none(), nb::arg("photons"),
              nb::arg("has_same_paths"))
-        .def("deliver_relaxed", &deliver_relaxed, nb::arg("photons").none(), nb::arg("steps"),
-             nb::arg("stopped_at").none())
+        .def("deliver_relaxed", &deliver_relaxed, nb::arg("photons"), nb::arg("steps"), nb::arg("stopped_at").none())
         .def("deliver_steps",
              [](Studio& self, const StepRows& rows) {
                  self.deliver([steps = read_steps(rows)](Workspace& workspace) { workspace.results.steps = steps; });
@@ -281,13 +282,6 @@ void bind_studio(nb::module_& module) {
     bind_state(type);
     module.def("open_studio", &open_studio, nb::arg("device"), nb::arg("size"), nb::arg("scale"), nb::arg("offscreen"),
                nb::keep_alive<0, 1>(), "The interactive tool, in a window or without.");
-    module.def(
-        "build_view_trees",
-        [](OpenDevice& open, Photons& photons) {
-            nb::gil_scoped_release release;
-            open.workbench.build_view_trees(photons);
-        },
-        nb::arg("device"), nb::arg("photons"), "Build every tree that views ask a map's queries of.");
     module.def(
         "find_cache_folder", [] { return find_cache_folder().string(); },
         "The per-user folder for what can be made again; empty: there is none.");

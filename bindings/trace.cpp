@@ -32,6 +32,16 @@ void bind_trace(nb::module_& module) {
         },
         nb::arg("device"), nb::arg("scene"), nb::arg("settings"), nb::arg("progress").none() = nb::none(),
         nb::keep_alive<0, 1>(), "Trace photons; settings: count, emitted, seed, emission, store, max_bounces, paths.");
+    module.def(
+        "record_paths",
+        [](OpenDevice& open, Photons& photons, const Scene& scene, const nb::dict& given, nb::object progress) {
+            const TraceSettings settings = read_settings(given);
+            PythonProgress(std::move(progress)).run([&](const Progress& asked) {
+                open.workbench.record_paths(photons, scene, settings, asked);
+            });
+        },
+        nb::arg("device"), nb::arg("photons"), nb::arg("scene"), nb::arg("settings"),
+        nb::arg("progress").none() = nb::none(), "Give traced photons their paths, by tracing them again.");
 }
 
 } // namespace photonloupe::bindings

@@ -1,38 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
-// Connects the stages and remembers what each was given.
+// Connects the stages and remembers what each gave.
 #include "pipeline.h"
+
+#include <utility>
 
 #include "estimate/camera_frame.h"
 #include "estimate/plot_photons.h"
 #include "inspect/photon_colors.h"
 #include "inspect/voronoi.h"
 #include "photons/map_columns.h"
+#include "photons/select_photons.h"
 #include "photons/tree_kernels.h"
+#include "stage_keys.h"
+#include "trace/find_traced.h"
 
 namespace photonloupe {
 namespace {
 
-std::string make_key(const Scene& scene, const TraceSettings& settings) {
-    std::string key = scene.hash;
-    for (const std::uint64_t value :
-         {settings.count, settings.emitted, std::uint64_t{settings.seed}, static_cast<std::uint64_t>(settings.emission),
-          static_cast<std::uint64_t>(settings.store), std::uint64_t{settings.max_bounces},
-          std::uint64_t{settings.paths}})
-        key += '/' + std::to_string(value);
-    return key;
-}
-
-void set_script_parameters(gpu::Device& device, Photons& photons, std::span<const float> values,
-                           const std::vector<script::DeclaredParameter>& declared) {
-    photons.forget_parameters();
-    photons.map.parameters.reset();
-    if (declared.empty())
-        return;
+std::vector<ParameterAxis> list_axes(const std::vector<script::DeclaredParameter>& declared) {
     std::vector<ParameterAxis> axes;
     for (const script::DeclaredParameter& parameter : declared)
         axes.push_back({parameter.name, parameter.low, parameter.high,
                         parameter.is_periodic ? parameter.high - parameter.low : 0.0f});
-    photons.map.parameters = make_parameters(device, values, std::move(axes));
+    return axes;
+}
+
+SearchSpace choose_space(script::NeighborQuery::Space space) {
+    using Space = script::NeighborQuery::Space;
+    return space == Space::world       ? SearchSpace::world
+           : space == Space::parameter ? SearchSpace::parameter
+                                       : SearchSpace::constrained;
+}
+
+void take_script_columns(Photons& photons, const Photons& scripted) {
+    const std::lock_guard lock(*photons.mutex);
+    PhotonMap columns = share_map(scripted.map);
+    photons.map.parameters = std::move(columns.parameters);
+    photons.map.colors = std::move(columns.colors);
+    photons.map.given_colors = std::move(columns.given_colors);
+    photons.trees = scripted.trees;
 }
 
 // Compiles what a tree of so many photons needs.
@@ -43,102 +49,90 @@ void expect_tree(gpu::Device& device, std::uint64_t photon_count) {
 } // namespace
 
 std::shared_ptr<const SceneBuffers> Workbench::find_buffers(const Scene& scene) {
-    if (m_scene_hash != scene.hash) {
-        m_scene_hash.clear(); // an upload that fails leaves nothing half-remembered
-        m_scene_buffers.reset();
-        m_scene_buffers = std::make_shared<SceneBuffers>(upload_scene(m_device, scene));
-        m_scene_hash = scene.hash;
-    }
-    return m_scene_buffers;
+    const MemoKey key(scene.hash);
+    if (std::shared_ptr<const SceneBuffers> buffers = m_scene_buffers.recall(key))
+        return buffers;
+    m_scene_buffers.forget(); // not two scenes at once
+    return m_scene_buffers.find(key, [&] { return upload_scene(m_device, scene); });
 }
 
 std::shared_ptr<Photons> Workbench::trace_photons(const Scene& scene, const TraceSettings& settings,
                                                   const Progress& progress) {
-    const std::string key = make_key(scene, settings);
-    if (key == m_traced_key)
-        if (std::shared_ptr<Photons> traced = m_traced.lock())
-            return traced;
+    const std::shared_ptr<const Photons> traced =
+        m_traced.find(make_key(scene, settings), [&] { return trace_anew(scene, settings, progress); });
+    std::shared_ptr<Photons> photons = share_photons(*traced);
+    photons->made_by = traced;
+    return photons;
+}
+
+Photons Workbench::trace_anew(const Scene& scene, const TraceSettings& settings, const Progress& progress) {
     // Most maps are looked at next; the kernels of the usual settings serve most others too. What is needed last is
     // named first.
     m_device.compile_ahead(list_render_kernels(scene, settings.store, {}));
     expect_tree(m_device, settings.count);
     m_device.compile_ahead({name_plot_kernel()});
     TracedPhotons traced = photonloupe::trace_photons(m_device, scene, *find_buffers(scene), settings, progress);
-    auto photons = std::make_shared<Photons>();
-    photons->map = std::move(traced.map);
-    photons->report = traced.report;
-    photons->store = settings.store;
-    m_traced = photons;
-    m_traced_key = key;
+    Photons photons;
+    photons.map = std::move(traced.map);
+    photons.report = traced.report;
+    photons.store = settings.store;
     return photons;
 }
 
-const KdTree& Workbench::find_tree(Photons& photons, const Progress& progress) {
-    if (!photons.tree)
-        photons.tree = build_tree(m_device, photons.map, progress);
-    return *photons.tree;
+void Workbench::record_paths(Photons& photons, const Scene& scene, TraceSettings settings, const Progress& progress) {
+    const std::lock_guard lock(*photons.mutex);
+    if (photons.map.paths)
+        return;
+    settings.emitted = photons.report.emitted;
+    settings.paths = true;
+    const std::shared_ptr<Photons> traced = trace_photons(scene, settings, progress);
+    std::array<double, 3> shift{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        shift[axis] = traced->map.origin[axis] - photons.map.origin[axis];
+    const std::vector<std::uint32_t> ids =
+        find_traced(traced->map, read_emitted_indices(photons.map), read_traced_positions(photons));
+    photons.map.paths = select_paths(m_device, *traced->map.paths, traced->map.count, ids, shift);
 }
 
-Neighbors Workbench::find_neighbors(Photons& photons, std::span<const glm::vec4> points, std::uint32_t k,
-                                    const Progress& progress) {
-    require_k(k);
-    return photonloupe::find_neighbors(m_device, {find_tree(photons, progress)}, ask_at(points), k, progress);
-}
-
-Neighbors Workbench::find_neighbors_of(Photons& photons, std::span<const std::uint32_t> ids, std::uint32_t k,
-                                       const Progress& progress) {
-    require_k(k);
-    const NeighborQueries queries = ask_about(photons.map, ids);
-    return photonloupe::find_neighbors(m_device, {find_tree(photons, progress)}, queries, k, progress);
-}
-
-Neighbors Workbench::find_parameter_neighbors(Photons& photons, std::span<const double> values, std::uint32_t k,
-                                              const Progress& progress) {
-    const ParameterTree& tree = find_parameter_tree(photons, progress);
-    return photonloupe::find_neighbors(m_device, look_in(tree, Measure::parameters),
-                                       ask_parameters_at(*tree.parameters, values), k, progress);
-}
-
-Neighbors Workbench::find_parameter_neighbors_of(Photons& photons, std::span<const std::uint32_t> ids, std::uint32_t k,
-                                                 const Progress& progress) {
-    const ParameterTree& tree = find_parameter_tree(photons, progress);
-    return photonloupe::find_neighbors(m_device, look_in(tree, Measure::parameters),
-                                       ask_with_rows(photons.map, *tree.parameters, ids), k, progress);
-}
-
-Neighbors Workbench::find_layer_neighbors_of(Photons& photons, std::span<const std::uint32_t> ids, std::uint32_t k,
-                                             float beta, const Progress& progress) {
-    const ParameterTree& tree = find_layered_tree(photons, progress);
-    NeighborQueries queries = ask_with_rows(photons.map, *tree.parameters, ids);
-    for (const float radius2 : find_radii2_of(photons, queries, k, progress))
-        queries.reach2.push_back(scale_reach2(radius2, beta));
-    return photonloupe::find_neighbors(m_device, look_in(tree, Measure::world), queries, k, progress);
-}
-
-Neighbors Workbench::find_layer_neighbors(Photons& photons, std::span<const glm::vec4> points, std::uint32_t center,
-                                          std::uint32_t k, float beta, const Progress& progress) {
-    const ParameterTree& tree = find_layered_tree(photons, progress);
-    const std::uint32_t ids[] = {center};
-    const NeighborQueries middle = ask_with_rows(photons.map, *tree.parameters, ids);
-    NeighborQueries queries = ask_at(points);
-    seek_in_layer(queries, middle.rows, scale_reach2(find_radii2_of(photons, middle, k, progress)[0], beta));
-    return photonloupe::find_neighbors(m_device, look_in(tree, Measure::world), queries, k, progress);
-}
-
-Neighbors Workbench::find_range_neighbors(Photons& photons, std::span<const glm::vec4> points,
-                                          std::span<const float> low, std::span<const float> high, std::uint32_t k,
-                                          const Progress& progress) {
-    NeighborQueries queries = ask_at(points);
-    seek_in_intervals(queries, low, high);
-    return photonloupe::find_neighbors(m_device, look_in(find_layered_tree(photons, progress), Measure::world), queries,
-                                       k, progress);
+Neighbors Workbench::find_neighbors(Photons& photons, const NearestQuery& query, const Progress& progress) {
+    require_k(query.k);
+    const auto find = [&](const Neighborhood& among, const NeighborQueries& queries) {
+        return photonloupe::find_neighbors(m_device, among, queries, query.k, progress);
+    };
+    if (query.space == SearchSpace::world) {
+        const std::shared_ptr<const KdTree> tree = find_tree(photons, progress);
+        return find({*tree}, query.ids ? ask_about(photons.map, *query.ids) : ask_at(query.places));
+    }
+    if (query.space == SearchSpace::parameter) {
+        const std::shared_ptr<const ParameterTree> tree = find_parameter_tree(photons, progress);
+        return find(look_in(*tree, Measure::parameters), query.ids
+                                                             ? ask_with_rows(photons.map, *tree->parameters, *query.ids)
+                                                             : ask_parameters_at(*tree->parameters, query.values));
+    }
+    const std::shared_ptr<const ParameterTree> tree = find_layered_tree(photons, progress);
+    const auto ask_with_radii = [&](std::span<const std::uint32_t> ids) {
+        NeighborQueries queries = ask_with_rows(photons.map, *tree->parameters, ids);
+        for (const float radius2 : find_radii2_of(photons, queries, query.k, progress))
+            queries.reach2.push_back(scale_reach2(radius2, query.beta));
+        return queries;
+    };
+    if (query.ids)
+        return find(look_in(*tree, Measure::world), ask_with_radii(*query.ids));
+    NeighborQueries queries = ask_at(query.places);
+    if (query.center) {
+        const NeighborQueries center = ask_with_radii(std::span(&*query.center, 1));
+        seek_in_layer(queries, center.rows, center.reach2[0]);
+    } else {
+        seek_in_intervals(queries, query.low, query.high);
+    }
+    return find(look_in(*tree, Measure::world), queries);
 }
 
 std::vector<float> Workbench::find_radii2_of(Photons& photons, const NeighborQueries& queries, std::uint32_t k,
                                              const Progress& progress) {
     const OrderedQueries ordered = order_queries(m_device, queries);
     const gpu::Buffer radii =
-        find_parameter_radii(m_device, find_parameter_tree(photons, progress), ordered.view(), k, progress);
+        find_parameter_radii(m_device, *find_parameter_tree(photons, progress), ordered.view(), k, progress);
     const std::vector<glm::vec4> found = radii.read<glm::vec4>(ordered.count);
     const std::vector<std::uint32_t> rows = ordered.result_rows.read<std::uint32_t>(ordered.count);
     std::vector<float> radii2(ordered.count);
@@ -147,116 +141,159 @@ std::vector<float> Workbench::find_radii2_of(Photons& photons, const NeighborQue
     return radii2;
 }
 
-std::vector<float> Workbench::measure_isotropy(Photons& photons, std::uint32_t k, const Progress& progress) {
-    return photonloupe::measure_isotropy(m_device, find_parameter_tree(photons, progress), k, progress);
+std::shared_ptr<const KdTree> Workbench::find_tree(Photons& photons, const Progress& progress) {
+    const std::lock_guard lock(*photons.mutex);
+    if (!photons.trees.positions)
+        photons.trees.positions = std::make_shared<const KdTree>(build_tree(m_device, photons.map, progress));
+    return photons.trees.positions;
 }
 
 std::shared_ptr<const ParameterRows> Workbench::find_parameter_rows(Photons& photons) {
-    if (!photons.parameter_rows)
-        photons.parameter_rows = std::make_shared<ParameterRows>(make_parameter_rows(m_device, photons.map));
-    return photons.parameter_rows;
+    if (!photons.trees.rows)
+        photons.trees.rows = std::make_shared<const ParameterRows>(make_parameter_rows(m_device, photons.map));
+    return photons.trees.rows;
 }
 
-const ParameterTree& Workbench::find_parameter_tree(Photons& photons, const Progress& progress) {
-    if (!photons.parameter_tree)
-        photons.parameter_tree = build_parameter_tree(m_device, photons.map, find_parameter_rows(photons), progress);
-    return *photons.parameter_tree;
+std::shared_ptr<const ParameterTree> Workbench::find_parameter_tree(Photons& photons, const Progress& progress) {
+    const std::lock_guard lock(*photons.mutex);
+    if (!photons.trees.parameters)
+        photons.trees.parameters = std::make_shared<const ParameterTree>(
+            build_parameter_tree(m_device, photons.map, find_parameter_rows(photons), progress));
+    return photons.trees.parameters;
 }
 
-const ParameterTree& Workbench::find_layered_tree(Photons& photons, const Progress& progress,
-                                                  std::optional<LayerReach> reach) {
-    if (photons.layered_tree && (!reach || *reach == photons.layered_for))
-        return *photons.layered_tree;
+std::shared_ptr<const ParameterTree> Workbench::find_layered_tree(Photons& photons, const Progress& progress,
+                                                                  std::optional<LayerReach> reach) {
+    const std::lock_guard lock(*photons.mutex);
+    MapTrees& trees = photons.trees;
+    if (trees.layered && (!reach || *reach == trees.layered_for))
+        return trees.layered;
     const LayerReach suited = reach.value_or(LayerReach{});
     const float scale =
-        choose_parameter_scale(m_device, find_parameter_tree(photons, progress), suited.k, suited.beta, progress);
-    photons.layered_tree = build_layered_tree(m_device, photons.map, find_parameter_rows(photons), scale, progress);
-    photons.layered_for = suited;
-    photons.layered_scale = scale;
-    return *photons.layered_tree;
+        choose_parameter_scale(m_device, *find_parameter_tree(photons, progress), suited.k, suited.beta, progress);
+    trees.layered = std::make_shared<const ParameterTree>(
+        build_layered_tree(m_device, photons.map, find_parameter_rows(photons), scale, progress));
+    trees.layered_for = suited;
+    return trees.layered;
 }
 
-gpu::Buffer Workbench::find_script_rows(Photons& photons, script::NeighborQuery::Space space,
-                                        std::span<const std::uint32_t> ids, std::uint32_t k, float beta,
-                                        const Progress& progress) {
-    using Space = script::NeighborQuery::Space;
-    return space == Space::world       ? find_neighbors_of(photons, ids, k, progress).ids
-           : space == Space::parameter ? find_parameter_neighbors_of(photons, ids, k, progress).ids
-                                       : find_layer_neighbors_of(photons, ids, k, beta, progress).ids;
+void Workbench::build_view_trees(Photons& photons, const Progress& progress) {
+    find_tree(photons, progress);
+    if (photons.map.parameters)
+        find_layered_tree(photons, progress);
 }
 
-void Workbench::take_script_columns(Photons& photons, const script::ScriptRun& run) {
-    set_script_parameters(m_device, photons, run.values, script::list_declared(run));
-    photons.map.colors.reset();
-    if (run.colors)
-        photons.map.colors = make_colors(m_device, script::choose_shown_colors(run));
+std::vector<float> Workbench::measure_isotropy(Photons& photons, std::uint32_t k, const Progress& progress) {
+    return photonloupe::measure_isotropy(m_device, *find_parameter_tree(photons, progress), k, progress);
 }
 
-script::ScriptRun Workbench::run_script(Photons& photons, const script::CompiledScript& script,
-                                        const script::RunSettings& settings, const script::KeptColumns* kept,
-                                        const Progress& progress) {
-    std::optional<ParameterColumns> before = std::move(photons.map.parameters);
-    photons.map.parameters.reset();
+std::shared_ptr<const script::ScriptRun> Workbench::run_script(Photons& photons, const script::CompiledScript& script,
+                                                               const script::RunSettings& settings, bool keeps,
+                                                               const Progress& progress) {
+    MemoKey key = make_key(photons, script, settings, keeps);
+    std::shared_ptr<const ScriptedPhotons> scripted = m_scripted.recall(key);
+    if (scripted) {
+        take_script_columns(photons, *scripted->photons);
+    } else {
+        script::ScriptRun run = run_anew(photons, script, settings, keeps, progress);
+        const bool is_whole = run.stopped.empty(); // what time or a limit stopped may get farther
+        photons.scripted_by.reset();
+        scripted = std::make_shared<const ScriptedPhotons>(ScriptedPhotons{std::move(run), share_photons(photons)});
+        if (is_whole)
+            m_scripted.remember(std::move(key), scripted);
+    }
+    photons.scripted_by = scripted;
+    return {scripted, &scripted->run};
+}
+
+script::ScriptRun Workbench::run_anew(Photons& photons, const script::CompiledScript& script,
+                                      const script::RunSettings& settings, bool keeps, const Progress& progress) {
+    const std::shared_ptr<const Photons> before = share_photons(photons);
+    const script::ScriptQueries queries{
+        [&](script::NeighborQuery::Space space, std::span<const std::uint32_t> ids, std::uint32_t k, float beta) {
+            return find_neighbors(photons, {choose_space(space), ids, {}, {}, k, beta}, progress).ids;
+        },
+        [&](std::span<const float> values, const std::vector<script::DeclaredParameter>& declared) {
+            set_parameters(m_device, photons, {values.begin(), values.end()}, list_axes(declared));
+        }};
     try {
-        const script::ScriptQueries queries{
-            [&](script::NeighborQuery::Space space, std::span<const std::uint32_t> ids, std::uint32_t k, float beta) {
-                return find_script_rows(photons, space, ids, k, beta, progress);
-            },
-            [&](std::span<const float> values, const std::vector<script::DeclaredParameter>& declared) {
-                set_script_parameters(m_device, photons, values, declared);
-            }};
-        script::ScriptRun run = script::run_script(m_device, photons.map, script, settings, kept, queries, progress);
-        take_script_columns(photons, run);
+        if (!keeps)
+            set_parameters(m_device, photons, {}, {});
+        script::ScriptRun run = script::run_script(m_device, photons.map, script, settings, keeps, queries, progress);
+        set_parameters(m_device, photons, std::move(run.values), list_axes(script::list_declared(run)));
+        photons.map.colors.reset();
+        photons.map.given_colors.reset();
+        if (run.colors)
+            set_colors(m_device, photons.map, *std::exchange(run.colors, std::nullopt));
         return run;
     } catch (...) {
-        photons.map.parameters = std::move(before);
-        photons.forget_parameters();
+        take_script_columns(photons, *before);
         throw;
     }
 }
 
 std::shared_ptr<Photons> Workbench::take_relaxed(const Photons& source, RelaxedColumns columns) {
     auto photons = std::make_shared<Photons>();
+    PhotonMap before = share_map(source.map);
     photons->map = std::move(columns.map);
+    photons->map.paths = std::move(before.paths);
+    photons->map.parameters = std::move(before.parameters);
+    photons->map.colors = std::move(before.colors);
+    photons->map.given_colors = std::move(before.given_colors);
+    photons->map.long_indices = std::move(before.long_indices);
     photons->report = source.report;
     photons->store = source.store;
+    columns.state.traced = read_traced_positions(source);
     photons->state = std::make_shared<const RelaxedState>(std::move(columns.state));
     return photons;
 }
 
 Relaxation Workbench::start_relaxation(Photons& photons, const Scene* scene, const RelaxSettings& settings,
                                        const Progress& progress) {
-    const KdTree& tree = find_tree(photons, progress);
-    const bool constrains = settings.constraint.descriptor != Descriptor::none;
-    LayerTrees trees;
-    if (settings.repel == Space::parameter || (constrains && settings.constraint.space == Space::parameter)) {
-        const bool seeks_constraint = constrains && settings.constraint.space == Space::parameter;
+    const bool seeks_constraint =
+        settings.constraint.descriptor != Descriptor::none && settings.constraint.space == Space::parameter;
+    RelaxTrees trees{find_tree(photons, progress), nullptr, nullptr};
+    if (settings.repel == Space::parameter || seeks_constraint) {
         const LayerReach reach = seeks_constraint ? LayerReach{settings.constraint.neighbors, settings.constraint.beta}
                                                   : LayerReach{settings.neighbors, settings.beta};
-        trees.by_parameters = &find_parameter_tree(photons, progress);
-        trees.layered = &find_layered_tree(photons, progress, reach);
-        trees.parameter_scale = photons.layered_scale;
+        trees.by_parameters = find_parameter_tree(photons, progress);
+        trees.layered = find_layered_tree(photons, progress, reach);
     }
     RelaxSurface surface;
     if (scene)
         surface = {find_buffers(*scene), scene->origin};
-    return Relaxation(m_device, photons.map, tree, trees, settings, surface, progress);
+    return Relaxation(m_device, photons.map, trees, settings, surface, progress);
+}
+
+RelaxedRun Workbench::relax_photons(Photons& photons, const Scene* scene, const RelaxSettings& settings,
+                                    const Progress& progress) {
+    const std::shared_ptr<const RelaxedRun> relaxed = m_relaxed.find(make_key(photons, scene, settings), [&] {
+        Relaxation relaxation = start_relaxation(photons, scene, settings, progress);
+        RelaxedRun run;
+        while (relaxation.step_count() < settings.steps)
+            run.steps.push_back(relaxation.step(progress));
+        run.notes = relaxation.notes();
+        run.off_surface_count = relaxation.count_off_surface();
+        run.photons = take_relaxed(photons, relaxation.read());
+        return run;
+    });
+    RelaxedRun run = *relaxed;
+    run.photons = share_photons(*relaxed->photons);
+    run.photons->made_by = relaxed;
+    return run;
 }
 
 gpu::Buffer Workbench::estimate_irradiance(Photons& photons, std::span<const glm::vec4> points,
                                            std::span<const glm::vec4> normals, const EstimateSettings& settings,
                                            const Progress& progress) {
     require_k(settings.k);
-    return estimate_irradiance_at(m_device, photons.map.power_object, find_tree(photons, progress), points, normals,
-                                  settings, progress);
-}
-
-void Workbench::build_view_trees(Photons& photons, const Progress& progress) {
-    find_tree(photons, progress);
-    if (!photons.map.parameters)
-        return;
-    find_parameter_tree(photons, progress);
-    find_layered_tree(photons, progress);
+    return m_irradiance
+        .find(make_key(photons, points, normals, settings),
+              [&] {
+                  return estimate_irradiance_at(m_device, photons.map.power_object, *find_tree(photons, progress),
+                                                points, normals, settings, progress);
+              })
+        ->share();
 }
 
 Image Workbench::render_voronoi(const Scene& scene, Photons& photons, const RenderSettings& settings,
@@ -265,23 +302,38 @@ Image Workbench::render_voronoi(const Scene& scene, Photons& photons, const Rend
         frame_camera(scene, find_camera(scene, settings.camera), settings.width, settings.height);
     const inspect::SurfaceView view = inspect::see_surfaces(m_device, scene, *find_buffers(scene), camera,
                                                             {settings.width, settings.height}, progress);
-    const inspect::CellImage cells = inspect::find_voronoi_cells(m_device, photons.map, find_tree(photons, progress),
+    const inspect::CellImage cells = inspect::find_voronoi_cells(m_device, photons.map, *find_tree(photons, progress),
                                                                  view, {settings.estimate.flatness}, progress);
     return inspect::paint_cells(cells, inspect::list_encoded_colors(photons.map));
 }
 
 Image Workbench::render(const Scene& scene, Photons* photons, const RenderSettings& settings,
                         const Progress& progress) {
+    return *m_image.find(make_key(scene, photons, settings),
+                         [&] { return render_anew(scene, photons, settings, progress); });
+}
+
+void Workbench::forget() {
+    m_traced.forget();
+    m_scripted.forget();
+    m_relaxed.forget();
+    m_irradiance.forget();
+    m_image.forget();
+}
+
+Image Workbench::render_anew(const Scene& scene, Photons* photons, const RenderSettings& settings,
+                             const Progress& progress) {
     if (!photons)
         return render_image(m_device, scene, *find_buffers(scene), nullptr, settings, progress);
     if (settings.mode == RenderMode::voronoi)
         return render_voronoi(scene, *photons, settings, progress);
     const bool needs_tree = settings.mode != RenderMode::photons;
     m_device.compile_ahead(list_render_kernels(scene, photons->store, settings));
-    if (needs_tree && !photons->tree)
+    if (needs_tree && !photons->trees.positions)
         expect_tree(m_device, photons->map.count);
-    const KdTree none;
-    const RenderedMap map{photons->map, needs_tree ? find_tree(*photons, progress) : none, photons->store};
+    const std::shared_ptr<const KdTree> tree =
+        needs_tree ? find_tree(*photons, progress) : std::make_shared<const KdTree>();
+    const RenderedMap map{photons->map, *tree, photons->store};
     return render_image(m_device, scene, *find_buffers(scene), &map, settings, progress);
 }
 

@@ -8,7 +8,9 @@
 #include <optional>
 #include <span>
 
+#include "core/memo.h"
 #include "estimate/render_image.h"
+#include "known_photons.h"
 #include "photons/find_neighbors.h"
 #include "photons/layer_scale.h"
 #include "relax/isotropy.h"
@@ -18,81 +20,80 @@
 
 namespace photonloupe {
 
-// How far layers reach: β times the distance to the k-th neighbour in parameter space.
-struct LayerReach {
-    std::uint32_t k = 50;
-    float beta = 3.0f;
-    bool operator==(const LayerReach&) const = default;
+// Whom a query finds.
+enum class SearchSpace {
+    world,       // all photons, by distance in metres
+    parameter,   // those with parameters, by distance in parameter space
+    constrained, // those of a layer, by distance in metres
 };
 
-// A photon map with what later stages need of it, built when first asked for and then kept.
-struct Photons {
-    PhotonMap map;
-    TraceReport report;
-    Store store = Store::caustic;
-    std::optional<KdTree> tree;
-    std::shared_ptr<const ParameterRows> parameter_rows; // relaxations keep them
-    std::optional<ParameterTree> parameter_tree;
-    std::optional<ParameterTree> layered_tree;
-    LayerReach layered_for;                    // what it was built to suit …
-    float layered_scale = 0;                   // … and how it weighs parameters
-    std::shared_ptr<const RelaxedState> state; // null: neither constrained nor relaxed
-
-    // Trees of parameters that are no longer the map's.
-    void forget_parameters() {
-        parameter_rows.reset();
-        parameter_tree.reset();
-        layered_tree.reset();
-    }
+// The k nearest photons of photons, which do not find themselves, or else of places.
+struct NearestQuery {
+    SearchSpace space = SearchSpace::world;
+    std::optional<std::span<const std::uint32_t>> ids;
+    std::span<const glm::vec4> places; // relative to the map's origin
+    std::span<const double> values;    // places of parameter space: a row of all parameters each
+    std::uint32_t k = 0;
+    float beta = 3.0f; // of layers
+    // The layer of places: that of a photon, or all whose parameters lie within ranges.
+    std::optional<std::uint32_t> center = {};
+    std::span<const float> low = {}, high = {};
 };
 
-// Runs the stages on one device and remembers their inputs: a stage whose inputs did not change does not run again.
+// What all steps of a relaxation gave.
+struct RelaxedRun {
+    std::shared_ptr<Photons> photons;
+    std::vector<StepReport> steps;
+    std::vector<std::string> notes;
+    std::uint64_t off_surface_count = 0;
+};
+
+// What a script gave, and photons with its columns; their values are no longer in `run`.
+struct ScriptedPhotons {
+    script::ScriptRun run;
+    std::shared_ptr<const Photons> photons;
+};
+
+// Runs the stages on one device, for any number of threads, and remembers what they gave last: a stage whose inputs did
+// not change does not run again.
 class Workbench {
 public:
     explicit Workbench(gpu::Device& device) : m_device(device) {}
 
-    // Traces, or hands out the living result of the same scene and settings.
     std::shared_ptr<Photons> trace_photons(const Scene& scene, const TraceSettings& settings, const Progress& progress);
 
-    const KdTree& find_tree(Photons& photons, const Progress& progress = {});
+    // Gives photons the paths they had, by tracing the same emitted indices again.
+    void record_paths(Photons& photons, const Scene& scene, TraceSettings settings, const Progress& progress);
 
-    Neighbors find_neighbors(Photons& photons, std::span<const glm::vec4> points, std::uint32_t k,
-                             const Progress& progress);
-    Neighbors find_neighbors_of(Photons& photons, std::span<const std::uint32_t> ids, std::uint32_t k,
-                                const Progress& progress);
+    Neighbors find_neighbors(Photons& photons, const NearestQuery& query, const Progress& progress);
 
-    // In parameter space: around points of it (values, a row of all parameters each) or photons.
-    Neighbors find_parameter_neighbors(Photons& photons, std::span<const double> values, std::uint32_t k,
-                                       const Progress& progress);
-    Neighbors find_parameter_neighbors_of(Photons& photons, std::span<const std::uint32_t> ids, std::uint32_t k,
-                                          const Progress& progress);
-    // In world space among the photons of a layer: each photon's own, one photon's, or what lies within ranges.
-    Neighbors find_layer_neighbors_of(Photons& photons, std::span<const std::uint32_t> ids, std::uint32_t k, float beta,
-                                      const Progress& progress);
-    Neighbors find_layer_neighbors(Photons& photons, std::span<const glm::vec4> points, std::uint32_t center,
-                                   std::uint32_t k, float beta, const Progress& progress);
-    Neighbors find_range_neighbors(Photons& photons, std::span<const glm::vec4> points, std::span<const float> low,
-                                   std::span<const float> high, std::uint32_t k, const Progress& progress);
-
-    // Of parameters alone, and of positions and parameters: one built before, whatever it suits best, or where `reach`
-    // is given one that suits it.
-    const ParameterTree& find_parameter_tree(Photons& photons, const Progress& progress = {});
-    const ParameterTree& find_layered_tree(Photons& photons, const Progress& progress = {},
-                                           std::optional<LayerReach> reach = {});
+    // Of positions, of parameters alone, and of both: one built before, whatever it suits best, or where `reach` is
+    // given one that suits it.
+    std::shared_ptr<const KdTree> find_tree(Photons& photons, const Progress& progress = {});
+    std::shared_ptr<const ParameterTree> find_parameter_tree(Photons& photons, const Progress& progress = {});
+    std::shared_ptr<const ParameterTree> find_layered_tree(Photons& photons, const Progress& progress = {},
+                                                           std::optional<LayerReach> reach = {});
+    // All that views ask for, ahead.
+    void build_view_trees(Photons& photons, const Progress& progress = {});
 
     // Axis ratios of photons in world space around their k neighbours in parameter space, by id ([SJL15] eq. 5).
     std::vector<float> measure_isotropy(Photons& photons, std::uint32_t k, const Progress& progress);
 
-    // Gives the photons the parameters and colors that a script computes; on an exception they keep what they have.
-    script::ScriptRun run_script(Photons& photons, const script::CompiledScript& script,
-                                 const script::RunSettings& settings, const script::KeptColumns* kept,
-                                 const Progress& progress);
+    // Gives the photons the parameters and colors that a script computes; those that it does not set go, or are kept.
+    // On an exception they keep what they have.
+    std::shared_ptr<const script::ScriptRun> run_script(Photons& photons, const script::CompiledScript& script,
+                                                        const script::RunSettings& settings, bool keeps,
+                                                        const Progress& progress);
+
+    // All steps of a relaxation; `scene` may be null.
+    RelaxedRun relax_photons(Photons& photons, const Scene* scene, const RelaxSettings& settings,
+                             const Progress& progress);
 
     // Measures the constraint and stands ready for the first step; `scene` may be null. The photons must outlive it.
     Relaxation start_relaxation(Photons& photons, const Scene* scene, const RelaxSettings& settings,
                                 const Progress& progress);
 
-    // The photons where a relaxation put them, with what it measured; without parameters, colors and paths.
+    // The photons where a relaxation put them, with what it measured; paths keep their traced end points.
     static std::shared_ptr<Photons> take_relaxed(const Photons& source, RelaxedColumns columns);
 
     gpu::Buffer estimate_irradiance(Photons& photons, std::span<const glm::vec4> points,
@@ -105,8 +106,8 @@ public:
     // The scene on the device, kept until another one is asked for.
     std::shared_ptr<const SceneBuffers> find_buffers(const Scene& scene);
 
-    // All trees that queries of views ask for, so that several threads may then look at the photons.
-    void build_view_trees(Photons& photons, const Progress& progress = {});
+    // All stages run again, whatever they are asked: for measuring.
+    void forget();
 
     gpu::Device& device() { return m_device; }
 
@@ -115,18 +116,21 @@ private:
     // Squared r_q of queries with rows; inf where fewer than k have parameters.
     std::vector<float> find_radii2_of(Photons& photons, const NeighborQueries& queries, std::uint32_t k,
                                       const Progress& progress);
-    gpu::Buffer find_script_rows(Photons& photons, script::NeighborQuery::Space space,
-                                 std::span<const std::uint32_t> ids, std::uint32_t k, float beta,
-                                 const Progress& progress);
     Image render_voronoi(const Scene& scene, Photons& photons, const RenderSettings& settings,
                          const Progress& progress);
-    void take_script_columns(Photons& photons, const script::ScriptRun& run);
+
+    Photons trace_anew(const Scene& scene, const TraceSettings& settings, const Progress& progress);
+    script::ScriptRun run_anew(Photons& photons, const script::CompiledScript& script,
+                               const script::RunSettings& settings, bool keeps, const Progress& progress);
+    Image render_anew(const Scene& scene, Photons* photons, const RenderSettings& settings, const Progress& progress);
 
     gpu::Device& m_device;
-    std::string m_scene_hash;                            // of m_scene_buffers
-    std::shared_ptr<const SceneBuffers> m_scene_buffers; // a relaxation keeps them as long as it lives
-    std::string m_traced_key;                            // scene and settings of m_traced
-    std::weak_ptr<Photons> m_traced;
+    Memo<SceneBuffers> m_scene_buffers{Lifetime::until_next};
+    Memo<Photons> m_traced{Lifetime::while_held}; // by those that share its columns
+    Memo<ScriptedPhotons> m_scripted{Lifetime::while_held};
+    Memo<RelaxedRun> m_relaxed{Lifetime::while_held};
+    Memo<gpu::Buffer> m_irradiance{Lifetime::until_next};
+    Memo<Image> m_image{Lifetime::until_next};
 };
 
 } // namespace photonloupe

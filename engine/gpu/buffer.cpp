@@ -106,13 +106,19 @@ Buffer::Buffer(Device& device, std::uint64_t size_bytes, const char* purpose) {
         throw MemoryError(std::string(purpose) + ": " + describe_mebibytes(size_bytes) + " needed, " +
                           describe_mebibytes(available) + " free on " + device.info().name +
                           "; ask for fewer photons or free memory");
-    m_impl = std::make_unique<Impl>(device, size_bytes, device.impl().memory_type_main, purpose);
+    m_impl = std::make_shared<Impl>(device, size_bytes, device.impl().memory_type_main, purpose);
 }
 
 Buffer::Buffer() = default;
 Buffer::~Buffer() = default;
 Buffer::Buffer(Buffer&& other) noexcept = default;
 Buffer& Buffer::operator=(Buffer&& other) noexcept = default;
+
+Buffer Buffer::share() const {
+    Buffer other;
+    other.m_impl = m_impl;
+    return other;
+}
 
 std::uint64_t Buffer::size_bytes() const {
     return m_impl ? m_impl->size_bytes : 0;

@@ -11,7 +11,7 @@ namespace photonloupe::gpu {
 
 class Device;
 
-// Move-only handle; freed with its last owner. A default-made buffer is empty and owns nothing.
+// Handle of memory that is freed with its last owner. A default-made buffer is empty and owns nothing.
 class Buffer {
 public:
     Buffer();
@@ -20,6 +20,9 @@ public:
     ~Buffer();
     Buffer(Buffer&& other) noexcept;
     Buffer& operator=(Buffer&& other) noexcept;
+
+    // Another owner of the same memory: for content that nobody changes any more.
+    Buffer share() const;
 
     std::uint64_t size_bytes() const;
     bool is_empty() const { return !m_impl; }
@@ -40,7 +43,7 @@ public:
     Impl& impl() const { return *m_impl; }
 
 private:
-    std::unique_ptr<Impl> m_impl;
+    std::shared_ptr<Impl> m_impl;
 };
 
 template <class T>

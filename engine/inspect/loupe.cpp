@@ -34,7 +34,7 @@ void require_query(const Photons& photons, const LoupeQuery& query) {
     for (const double coordinate : query.point)
         if (!query.photon && !std::isfinite(coordinate))
             throw Error("loupe: the point is not finite; give world coordinates in metres");
-    if (query.space == LoupeSpace::world)
+    if (query.space == SearchSpace::world)
         return;
     const std::size_t count = require_parameters(photons.map).count;
     if (query.low.size() != query.high.size() || (!query.low.empty() && query.low.size() != count))
@@ -64,7 +64,7 @@ std::optional<std::uint32_t> Look::find_center() const {
         return query.photon;
     const std::uint32_t count = query.normal ? CENTER_CANDIDATES : 1;
     std::vector<std::int32_t> near =
-        bench.find_neighbors(photons, place, count, progress).ids.read<std::int32_t>(count);
+        bench.find_neighbors(photons, {.places = place, .k = count}, progress).ids.read<std::int32_t>(count);
     std::erase(near, -1);
     if (near.empty())
         return std::nullopt;
@@ -79,19 +79,15 @@ std::optional<std::uint32_t> Look::find_center() const {
 }
 
 Neighbors Look::find_found(std::uint32_t center) const {
-    const std::uint32_t ids[] = {center};
-    if (query.space == LoupeSpace::parameter)
-        return bench.find_parameter_neighbors_of(photons, ids, query.k, progress);
-    const bool is_world = query.space == LoupeSpace::world;
-    if (query.photon && is_world)
-        return bench.find_neighbors_of(photons, ids, query.k, progress);
-    if (is_world)
-        return bench.find_neighbors(photons, place, query.k, progress);
-    if (!query.low.empty())
-        return bench.find_range_neighbors(photons, place, query.low, query.high, query.k, progress);
-    if (query.photon && !query.pinned)
-        return bench.find_layer_neighbors_of(photons, ids, query.k, query.beta, progress);
-    return bench.find_layer_neighbors(photons, place, query.pinned.value_or(center), query.k, query.beta, progress);
+    NearestQuery asked{query.space, {}, place, {}, query.k, query.beta};
+    const bool is_locked = query.space == SearchSpace::constrained && (query.pinned || !query.low.empty());
+    if (query.space == SearchSpace::parameter || (query.photon && !is_locked))
+        asked.ids = std::span(&center, 1);
+    else if (query.low.empty())
+        asked.center = query.pinned.value_or(center);
+    asked.low = query.low;
+    asked.high = query.high;
+    return bench.find_neighbors(photons, asked, progress);
 }
 
 void Look::take_found(LoupeView& view, const Neighbors& found) const {

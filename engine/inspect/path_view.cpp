@@ -113,4 +113,17 @@ double measure_normal_angle(const PathView& path) {
     return UNDEFINED;
 }
 
+std::vector<std::uint32_t> find_signature(const PhotonMap& photons, std::span<const std::uint8_t> interactions) {
+    const HostPaths paths = read_paths(photons);
+    std::vector<std::uint32_t> ids;
+    for (std::uint32_t id = 0; id < photons.count; ++id) {
+        const std::span<const glm::vec4> vertices = paths.view(id).vertices;
+        if (vertices.size() == interactions.size() + 2 &&
+            std::equal(interactions.begin(), interactions.end(), vertices.begin() + 1,
+                       [](std::uint8_t wanted, const glm::vec4& vertex) { return wanted == read_interaction(vertex); }))
+            ids.push_back(id);
+    }
+    return ids;
+}
+
 } // namespace photonloupe::inspect

@@ -46,4 +46,7 @@ glm::dvec3 find_arrival(const PathView& path);     // unit vector along the last
 // Azimuth about y of the normal at the first specular vertex, [SJL15] figure 9 f: 0 towards -z, π/2 towards x.
 double measure_normal_angle(const PathView& path);
 
+// Ids of the photons that went through just these interactions between emitter and storage point.
+std::vector<std::uint32_t> find_signature(const PhotonMap& photons, std::span<const std::uint8_t> interactions);
+
 } // namespace photonloupe::inspect

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Directions to angles, as the scripts primal_trajectory and incident_trajectory have them.
+// Directions to angles about a pole.
 #include "inspect/trajectories.h"
 
 #include <cmath>

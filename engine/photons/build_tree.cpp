@@ -72,7 +72,7 @@ private:
 
 class TreeBuilder {
 public:
-    TreeBuilder(gpu::Device& device, const PhotonMap& photons, const RangeRows* ranges, TreeAxes axes,
+    TreeBuilder(gpu::Device& device, const TreePhotons& photons, const RangeRows* ranges, TreeAxes axes,
                 float parameter_scale, const Progress& progress)
         : m_device(device), m_photons(photons), m_ranges(ranges), m_axes(axes), m_parameter_scale(parameter_scale) {
         m_tree.count = photons.count;
@@ -127,7 +127,7 @@ private:
     const gpu::Buffer& source(std::uint32_t level) const {
         return (m_tree.leaf_level - level) % 2 == 0 ? m_tree.positions : m_tree.normals;
     }
-    const gpu::Buffer& rows() const { return m_ranges ? m_ranges->values : m_photons.position_emitter; }
+    const gpu::Buffer& rows() const { return m_ranges ? m_ranges->values : m_photons.positions; }
 
     shared::TreeBuild make_push(std::uint32_t level, std::uint64_t first, std::uint64_t count) const {
         return {static_cast<std::uint32_t>(m_tree.count),
@@ -151,7 +151,7 @@ private:
                    static_cast<std::uint32_t>(std::min(largest, m_tree.count - first))};
             m_batches->add(push.count)
                 .dispatch(m_kernels->number_photons(),
-                          {{"position_emitter", m_photons.position_emitter},
+                          {{"position_emitter", m_photons.positions},
                            {"tree_positions", source(0)},
                            {"box_keys", m_box_keys},
                            {"emitters", m_emitters}},
@@ -258,7 +258,7 @@ private:
     }
 
     gpu::Device& m_device;
-    const PhotonMap& m_photons;
+    TreePhotons m_photons;
     const RangeRows* m_ranges; // may be none
     TreeAxes m_axes;
     float m_parameter_scale;
@@ -281,11 +281,11 @@ std::uint32_t find_first_position(std::uint64_t count, std::uint64_t node, std::
     return static_cast<std::uint32_t>(std::min(shared::TREE_TILE * (count_tiles(count) * node >> level), count));
 }
 
-KdTree build_tree(gpu::Device& device, const PhotonMap& photons, const Progress& progress) {
+KdTree build_tree(gpu::Device& device, const TreePhotons& photons, const Progress& progress) {
     return TreeBuilder(device, photons, nullptr, TreeAxes::positions, 0, progress).build();
 }
 
-KdTree build_tree(gpu::Device& device, const PhotonMap& photons, const RangeRows& ranges, TreeAxes axes,
+KdTree build_tree(gpu::Device& device, const TreePhotons& photons, const RangeRows& ranges, TreeAxes axes,
                   float parameter_scale, const Progress& progress) {
     return TreeBuilder(device, photons, axes == TreeAxes::positions ? nullptr : &ranges, axes, parameter_scale,
                        progress)

@@ -18,15 +18,15 @@ const gpu::Buffer& choose_buffer(const gpu::Buffer& buffer, const gpu::Buffer& o
 
 } // namespace
 
-void order_columns(gpu::Commands& commands, const PhotonMap& photons, const RangeRows* ranges, const KdTree& tree,
+void order_columns(gpu::Commands& commands, const TreePhotons& photons, const RangeRows* ranges, const KdTree& tree,
                    const gpu::Buffer& emitters, std::uint64_t first, std::uint64_t count) {
     const struct {
         std::uint32_t first, count;
     } push{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count)};
     const TreeKernels kernels(ranges ? tree.range_rows : 0, 0);
     commands.dispatch(kernels.order_columns(),
-                      {{"normal_index", photons.normal_index},
-                       {"position_emitter", photons.position_emitter},
+                      {{"normal_index", photons.normals},
+                       {"position_emitter", photons.positions},
                        {"range_rows", ranges ? ranges->values : tree.positions},
                        {"tree_positions", tree.positions},
                        {"emitters", emitters},

@@ -17,6 +17,16 @@ struct RangeRows {
     std::uint32_t count_rows() const { return (axis_count + 3) / 4; }
 };
 
+// What a tree is built of, photon ids being indices: a map's columns, or others.
+struct TreePhotons {
+    std::uint64_t count = 0;
+    const gpu::Buffer& positions; // xyz, w bits: emitter
+    const gpu::Buffer& normals;   // xyz unit
+    TreePhotons(std::uint64_t photon_count, const gpu::Buffer& places, const gpu::Buffer& directions)
+        : count(photon_count), positions(places), normals(directions) {}
+    TreePhotons(const PhotonMap& map) : TreePhotons(map.count, map.position_emitter, map.normal_index) {}
+};
+
 // Along what nodes are split.
 enum class TreeAxes { positions, both, ranges };
 
@@ -41,20 +51,20 @@ std::uint32_t find_first_position(std::uint64_t count, std::uint64_t node, std::
 
 // A tree over positions: nodes are split along their widest extent (x before y before z), about the median of
 // (coordinate, photon id).
-KdTree build_tree(gpu::Device& device, const PhotonMap& photons, const Progress& progress = {});
+KdTree build_tree(gpu::Device& device, const TreePhotons& photons, const Progress& progress = {});
 
 // A tree whose nodes also know ranges. They are split along the axis of greatest spread: the standard deviation over
 // 64 evenly spaced photons of a node, times a scale by which all axes have the same spread over the whole map
 // (`ranges`: all but the parameters, whose values are compared as they are).
 // With a `parameter_scale` in `both`, parameters count so many metres a unit instead.
-KdTree build_tree(gpu::Device& device, const PhotonMap& photons, const RangeRows& ranges, TreeAxes axes,
+KdTree build_tree(gpu::Device& device, const TreePhotons& photons, const RangeRows& ranges, TreeAxes axes,
                   float parameter_scale = 0, const Progress& progress = {});
 
 // Records the filling of tree.normals and, with ranges, of tree.rows from the map, in the order of tree.positions, for
 // `count` photons: no more than workgroups of ORDER_GROUP that the device allows. `emitters` holds the least emitter
 // and the complement of the greatest.
 constexpr std::uint32_t ORDER_GROUP = 64;
-void order_columns(gpu::Commands& commands, const PhotonMap& photons, const RangeRows* ranges, const KdTree& tree,
+void order_columns(gpu::Commands& commands, const TreePhotons& photons, const RangeRows* ranges, const KdTree& tree,
                    const gpu::Buffer& emitters, std::uint64_t first, std::uint64_t count);
 
 // Makes all boxes tight, and with ranges those too.

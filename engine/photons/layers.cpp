@@ -75,11 +75,11 @@ std::vector<glm::vec4> pack_periods(const ParameterColumns& columns, std::uint32
 
 } // namespace
 
-ParameterColumns make_parameters(gpu::Device& device, std::span<const float> values, std::vector<ParameterAxis> axes) {
+ParameterColumns make_parameters(gpu::Device& device, std::vector<float> values, std::vector<ParameterAxis> axes) {
     const auto count = static_cast<std::uint32_t>(axes.size());
-    ParameterColumns columns{count, {}, {}, std::move(axes)};
+    ParameterColumns columns{count, {}, {}, {}, std::move(axes)};
     for (const ParameterAxis& axis : columns.axes)
-        columns.periods.push_back(axis.period);
+        columns.periods.push_back(static_cast<float>(axis.period));
     const std::size_t photons = values.size() / count, rows = columns.count_rows();
     std::vector<glm::vec4> packed(photons * rows, glm::vec4(0.0f));
     for (std::size_t photon = 0; photon < photons; ++photon) {
@@ -89,6 +89,7 @@ ParameterColumns make_parameters(gpu::Device& device, std::span<const float> val
             packed[photon * rows + i / 4][i % 4] = has_values ? row[i] : std::numeric_limits<float>::quiet_NaN();
     }
     columns.values = gpu::make_buffer(device, packed, "parameters");
+    columns.given = std::make_shared<const std::vector<float>>(std::move(values));
     return columns;
 }
 
@@ -140,14 +141,14 @@ ParameterRows make_parameter_rows(gpu::Device& device, const PhotonMap& photons)
 ParameterTree build_parameter_tree(gpu::Device& device, const PhotonMap& photons,
                                    std::shared_ptr<const ParameterRows> parameters, const Progress& progress) {
     KdTree tree = build_tree(device, photons, parameters->rows, TreeAxes::ranges, 0, progress);
-    return {std::move(parameters), std::move(tree)};
+    return {std::move(parameters), std::move(tree), 0};
 }
 
 ParameterTree build_layered_tree(gpu::Device& device, const PhotonMap& photons,
                                  std::shared_ptr<const ParameterRows> parameters, float parameter_scale,
                                  const Progress& progress) {
     KdTree tree = build_tree(device, photons, parameters->rows, TreeAxes::both, parameter_scale, progress);
-    return {std::move(parameters), std::move(tree)};
+    return {std::move(parameters), std::move(tree), parameter_scale};
 }
 
 Neighborhood look_in(const ParameterTree& tree, Measure measure) {

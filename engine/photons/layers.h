@@ -11,7 +11,7 @@
 namespace photonloupe {
 
 // Packs a value per axis and photon and uploads them; a photon with a NaN among them has none at all.
-ParameterColumns make_parameters(gpu::Device& device, std::span<const float> values, std::vector<ParameterAxis> axes);
+ParameterColumns make_parameters(gpu::Device& device, std::vector<float> values, std::vector<ParameterAxis> axes);
 
 // Throws Error when the map has none.
 const ParameterColumns& require_parameters(const PhotonMap& photons);
@@ -34,6 +34,7 @@ ParameterRows make_parameter_rows(gpu::Device& device, const PhotonMap& photons)
 struct ParameterTree {
     std::shared_ptr<const ParameterRows> parameters;
     KdTree tree;
+    float parameter_scale = 0; // metres that a unit of a parameter counts; 0: split along parameters alone
 };
 
 // Split along parameters alone: for queries in parameter space.

@@ -18,8 +18,9 @@ namespace {
 // As for scenes: a map whose center is farther away than this many of its own radii is kept relative to the center.
 constexpr double FAR_RADII = 8.0;
 
+// Along axes that are far themselves, so that each coordinate comes back as it was.
 std::array<double, 3> choose_origin(std::span<const float> positions) {
-    std::array<double, 3> center{};
+    std::array<double, 3> center{}, origin{};
     double radius2 = 0, distance2 = 0;
     for (std::size_t axis = 0; axis < 3 && !positions.empty(); ++axis) {
         float lo = positions[axis], hi = positions[axis];
@@ -28,10 +29,12 @@ std::array<double, 3> choose_origin(std::span<const float> positions) {
             hi = std::max(hi, positions[i]);
         }
         center[axis] = 0.5 * (static_cast<double>(lo) + hi);
+        if (std::abs(center[axis]) > FAR_RADII * 0.5 * (static_cast<double>(hi) - lo))
+            origin[axis] = center[axis];
         radius2 += 0.25 * (static_cast<double>(hi) - lo) * (static_cast<double>(hi) - lo);
         distance2 += center[axis] * center[axis];
     }
-    return distance2 > FAR_RADII * FAR_RADII * radius2 ? center : std::array<double, 3>{};
+    return distance2 > FAR_RADII * FAR_RADII * radius2 ? origin : std::array<double, 3>{};
 }
 
 std::int32_t name_object(std::uint32_t bits) {
@@ -65,6 +68,7 @@ PhotonMap make_map(gpu::Device& device, const MapColumns& columns) {
     map.count = columns.emitter.size();
     map.origin = choose_origin(columns.positions);
     std::vector<glm::vec4> position(map.count), normal(map.count), power(map.count);
+    bool is_long = false;
     for (std::size_t i = 0; i < map.count; ++i) {
         for (int axis = 0; axis < 3; ++axis) {
             position[i][axis] = static_cast<float>(columns.positions[3 * i + axis] - map.origin[axis]);
@@ -73,10 +77,13 @@ PhotonMap make_map(gpu::Device& device, const MapColumns& columns) {
         }
         position[i].w = std::bit_cast<float>(columns.emitter[i]);
         normal[i].w = std::bit_cast<float>(static_cast<std::uint32_t>(columns.emitted_index[i]));
+        is_long |= columns.emitted_index[i] > std::numeric_limits<std::uint32_t>::max();
         const bool has_object = columns.object[i] >= 0;
         power[i].w =
             std::bit_cast<float>(has_object ? static_cast<std::uint32_t>(columns.object[i]) : shared::NO_OBJECT);
     }
+    if (is_long)
+        map.long_indices.assign(columns.emitted_index.begin(), columns.emitted_index.end());
     map.position_emitter = gpu::make_buffer(device, position, "photon positions");
     map.normal_index = gpu::make_buffer(device, normal, "photon normals");
     map.power_object = gpu::make_buffer(device, power, "photon powers");
@@ -104,15 +111,51 @@ PathColumns make_paths(gpu::Device& device, const PathArrays& arrays, const std:
     paths.starts = gpu::make_buffer(device, starts, "path starts");
     paths.vertices = gpu::make_buffer(device, vertices, "path vertices");
     paths.normals = gpu::make_buffer(device, normals, "path normals");
+    paths.has_normals = !arrays.normals.empty() || vertices.empty();
+    paths.has_interactions = !arrays.interactions.empty() || vertices.empty();
+    paths.has_objects = !arrays.objects.empty() || vertices.empty();
+    paths.has_scatter = !arrays.scatter.empty() || vertices.empty();
     return paths;
 }
 
-gpu::Buffer make_colors(gpu::Device& device, std::span<const float> values) {
+void set_colors(gpu::Device& device, PhotonMap& map, std::vector<float> values) {
+    const std::size_t count = map.parameters ? map.parameters->count : 0;
     std::vector<glm::vec4> packed(values.size() / 3, glm::vec4(UNSET_GREY, UNSET_GREY, UNSET_GREY, 0.0f));
-    for (std::size_t i = 0; i < packed.size(); ++i)
-        if (!std::isnan(values[3 * i]))
+    for (std::size_t i = 0; i < packed.size(); ++i) {
+        const std::span<const float> own =
+            count ? std::span(*map.parameters->given).subspan(i * count, count) : std::span<const float>{};
+        if (!std::isnan(values[3 * i]) && std::none_of(own.begin(), own.end(), [](float v) { return std::isnan(v); }))
             packed[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2], 1.0f};
-    return gpu::make_buffer(device, packed, "photon colors");
+    }
+    map.colors = gpu::make_buffer(device, packed, "photon colors");
+    map.given_colors = std::make_shared<const std::vector<float>>(std::move(values));
+}
+
+PathColumns share_paths(const PathColumns& paths) {
+    return {paths.vertex_count, paths.starts.share(),   paths.vertices.share(), paths.normals.share(),
+            paths.has_normals,  paths.has_interactions, paths.has_objects,      paths.has_scatter};
+}
+
+ParameterColumns share_parameters(const ParameterColumns& parameters) {
+    return {parameters.count, parameters.values.share(), parameters.given, parameters.periods, parameters.axes};
+}
+
+PhotonMap share_map(const PhotonMap& map) {
+    PhotonMap shared;
+    shared.count = map.count;
+    shared.origin = map.origin;
+    shared.position_emitter = map.position_emitter.share();
+    shared.normal_index = map.normal_index.share();
+    shared.power_object = map.power_object.share();
+    shared.long_indices = map.long_indices;
+    if (map.paths)
+        shared.paths = share_paths(*map.paths);
+    if (map.parameters)
+        shared.parameters = share_parameters(*map.parameters);
+    if (map.colors)
+        shared.colors = map.colors->share();
+    shared.given_colors = map.given_colors;
+    return shared;
 }
 
 std::vector<float> read_positions(const PhotonMap& photons) {
@@ -125,6 +168,8 @@ std::vector<std::int32_t> read_emitters(const PhotonMap& photons) {
 }
 
 std::vector<std::uint64_t> read_emitted_indices(const PhotonMap& photons) {
+    if (!photons.long_indices.empty())
+        return photons.long_indices;
     return unpack<std::uint64_t>(photons.normal_index, photons.count,
                                  [](const glm::vec4& v) { return std::bit_cast<std::uint32_t>(v.w); });
 }
@@ -153,6 +198,10 @@ std::vector<std::int32_t> read_path_objects(const PathColumns& paths) {
     return unpack<std::int32_t>(paths.vertices, paths.vertex_count, [](const glm::vec4& v) {
         return name_object(std::bit_cast<std::uint32_t>(v.w) & shared::NO_OBJECT);
     });
+}
+
+std::vector<float> read_path_scatter(const PathColumns& paths) {
+    return unpack<float>(paths.normals, paths.vertex_count, [](const glm::vec4& v) { return v.w; });
 }
 
 std::vector<glm::vec4> localize_points(const PhotonMap& photons, std::span<const double> points) {

@@ -37,9 +37,15 @@ PhotonMap make_map(gpu::Device& device, const MapColumns& columns);
 // The paths of that map's photons. Throws Error when they have more vertices than 32 bits count.
 PathColumns make_paths(gpu::Device& device, const PathArrays& arrays, const std::array<double, 3>& origin);
 
-// False colors, 3 floats a photon; those of NaN are set to UNSET_GREY with w 0.
+// Gives a map false colors, 3 floats a photon; photons of NaN, or without one of their parameters, are shown in
+// UNSET_GREY with w 0.
 constexpr float UNSET_GREY = 0.5f;
-gpu::Buffer make_colors(gpu::Device& device, std::span<const float> values);
+void set_colors(gpu::Device& device, PhotonMap& map, std::vector<float> values);
+
+// A map of the same columns in the same memory.
+PhotonMap share_map(const PhotonMap& map);
+PathColumns share_paths(const PathColumns& paths);
+ParameterColumns share_parameters(const ParameterColumns& parameters);
 
 // World positions: 3 floats a photon.
 std::vector<float> read_positions(const PhotonMap& photons);
@@ -51,6 +57,7 @@ std::vector<std::int64_t> read_path_offsets(const PathColumns& paths, std::uint6
 std::vector<float> read_path_vertices(const PathColumns& paths, const std::array<double, 3>& origin);
 std::vector<std::uint8_t> read_path_interactions(const PathColumns& paths);
 std::vector<std::int32_t> read_path_objects(const PathColumns& paths); // -1: none
+std::vector<float> read_path_scatter(const PathColumns& paths);
 
 // Points given in world coordinates (3 doubles each) relative to the map's origin; w 0.
 std::vector<glm::vec4> localize_points(const PhotonMap& photons, std::span<const double> points);

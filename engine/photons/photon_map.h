@@ -19,19 +19,25 @@ struct PathColumns {
     gpu::Buffer starts;   // uint, one more than photons
     gpu::Buffer vertices; // xyz metres from the map's origin, w bits: interaction << 24 | object
     gpu::Buffer normals;  // xyz unit, facing the arriving light; w scatter (0 mirror-like … 1 diffuse)
+    // Whether they were recorded or given, and are not just filled with nothing.
+    bool has_normals = true, has_interactions = true, has_objects = true, has_scatter = true;
 };
+
+// A column of the host that maps share: nobody changes it.
+using SharedFloats = std::shared_ptr<const std::vector<float>>;
 
 // One dimension of parameter space, as it was declared: what views show of it.
 struct ParameterAxis {
     std::string name;
-    float low = 0, high = 0; // bounds; they never scale distances
-    float period = 0;        // 0: it does not wrap
+    double low = 0, high = 0; // bounds; they never scale distances
+    double period = 0;        // 0: it does not wrap
 };
 
 // The photons' parameters (METHODS §4), as a script or a user set them.
 struct ParameterColumns {
     std::uint32_t count = 0;         // 1–13
     gpu::Buffer values;              // count_rows() vec4s a photon, by id; NaN: the photon has none
+    SharedFloats given;              // `count` a photon, as they were set
     std::vector<float> periods;      // per parameter; 0: it does not wrap
     std::vector<ParameterAxis> axes; // per parameter
     std::uint32_t count_rows() const { return (count + 3) / 4; }
@@ -48,7 +54,9 @@ struct PhotonMap {
     gpu::Buffer power_object;         // rgb flux in W, w bits: object
     std::optional<PathColumns> paths; // only when asked for
     std::optional<ParameterColumns> parameters;
-    std::optional<gpu::Buffer> colors; // rgb as a script encoded them, grey where it did not; w 1: set
+    std::optional<gpu::Buffer> colors;       // rgb as a script encoded them, grey where it did not; w 1: set
+    SharedFloats given_colors;               // rgb a photon as the script gave them, NaN: none; null: no colors
+    std::vector<std::uint64_t> long_indices; // emitted indices, where one is too large for `normal_index`
 };
 
 } // namespace photonloupe

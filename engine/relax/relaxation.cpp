@@ -9,6 +9,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "photons/find_neighbors.h"
 #include "photons/tree_kernels.h"
 #include "relax/flux_diffusion.h"
 
@@ -89,10 +90,10 @@ void bring_numbers(const std::vector<glm::vec4>& before, const KdTree& tree,
 
 } // namespace
 
-Relaxation::Relaxation(gpu::Device& device, const PhotonMap& photons, const KdTree& tree, const LayerTrees& trees,
+Relaxation::Relaxation(gpu::Device& device, const PhotonMap& photons, const RelaxTrees& trees,
                        const RelaxSettings& settings, RelaxSurface surface, const Progress& progress)
     : m_device(device), m_photons(photons), m_settings(settings), m_surface(std::move(surface)),
-      m_tree(copy_tree(device, settings.repel == Space::parameter ? trees.layered->tree : tree)) {
+      m_tree(copy_tree(device, settings.repel == Space::parameter ? trees.layered->tree : *trees.by_positions)) {
     const std::uint64_t count = photons.count;
     if (count == 0)
         return;
@@ -101,7 +102,7 @@ Relaxation::Relaxation(gpu::Device& device, const PhotonMap& photons, const KdTr
     m_flat_axes = find_flat_axes(m_tree);
     if (settings.repel == Space::parameter) {
         m_parameters = trees.layered->parameters;
-        m_parameter_scale = trees.parameter_scale;
+        m_parameter_scale = trees.layered->parameter_scale;
     }
     m_device.compile_ahead(list_kernels());
     constrain(trees, progress);
@@ -119,7 +120,7 @@ Relaxation::Relaxation(gpu::Device& device, const PhotonMap& photons, const KdTr
 }
 
 // Measures the constraint in the tree that suits it and brings it into the order of the photons' own.
-void Relaxation::constrain(const LayerTrees& trees, const Progress& progress) {
+void Relaxation::constrain(const RelaxTrees& trees, const Progress& progress) {
     const ConstraintSettings& constraint = m_settings.constraint;
     if (constraint.descriptor == Descriptor::none)
         return;
@@ -148,7 +149,7 @@ void Relaxation::constrain(const LayerTrees& trees, const Progress& progress) {
             {&m_constraint.along, &m_constraint.across, &m_constraint.offsets, &m_constraint.member_radii, &m_radii});
 }
 
-void Relaxation::take_layers(const LayerTrees& trees, const Progress& progress) {
+void Relaxation::take_layers(const RelaxTrees& trees, const Progress& progress) {
     if (m_settings.repel == Space::world)
         return;
     m_reach2 =
@@ -291,10 +292,7 @@ void Relaxation::repel(float tau, const Progress& progress) {
 void Relaxation::rebuild_tree(const Progress& progress) {
     const std::uint64_t count = m_photons.count;
     const std::vector<glm::vec4> before = m_tree.positions.read<glm::vec4>(count);
-    PhotonMap present; // ids are places in the old tree
-    present.count = count;
-    present.position_emitter = gpu::make_buffer(m_device, before, "photon positions");
-    present.normal_index = gpu::make_buffer(m_device, m_tree.normals.read<glm::vec4>(count), "photon normals");
+    const TreePhotons present(count, m_tree.positions, m_tree.normals); // ids are places in the old tree
     KdTree tree;
     if (m_parameters) {
         const RangeRows rows{m_parameters->rows.axis_count, std::move(m_tree.rows)};
@@ -438,11 +436,7 @@ void Relaxation::read_state(RelaxedColumns& columns, const std::vector<glm::vec4
     const std::uint64_t count = m_photons.count;
     const std::vector<glm::vec4> moves = count ? m_moves.read<glm::vec4>(count) : std::vector<glm::vec4>{};
     columns.state.pressure = scatter<float>(order, 1, [&](std::size_t at, float* value) { *value = moves[at].w; });
-    if (!m_triangles.is_empty())
-        for (const std::uint32_t triangle : m_triangles.read<std::uint32_t>(count))
-            columns.off_surface_count += triangle == shared::NO_TRIANGLE;
-    columns.has_constraint = m_settings.constraint.descriptor != Descriptor::none;
-    if (!columns.has_constraint || count == 0)
+    if (m_settings.constraint.descriptor == Descriptor::none || count == 0)
         return;
     const std::vector<glm::vec4> along = m_constraint.along.read<glm::vec4>(count);
     const std::vector<glm::vec4> across = m_constraint.across.read<glm::vec4>(count);
@@ -462,6 +456,24 @@ void Relaxation::read_state(RelaxedColumns& columns, const std::vector<glm::vec4
             value[axis] = r > 0 ? 4.0f * offsets[at][axis] / r : 0.0f; // METHODS §5.1: 4m/r²
     });
     columns.state.one_sidedness = scatter<float>(order, 1, [&](std::size_t at, float* value) { *value = radii[at].z; });
+}
+
+std::uint64_t Relaxation::count_off_surface() const {
+    if (!m_surface.scene)
+        return m_photons.count;
+    if (m_triangles.is_empty())
+        return 0;
+    const std::vector<std::uint32_t> triangles = m_triangles.read<std::uint32_t>(m_photons.count);
+    return static_cast<std::uint64_t>(std::count(triangles.begin(), triangles.end(), shared::NO_TRIANGLE));
+}
+
+std::vector<float> Relaxation::sample_distances(std::uint64_t sample_count, std::uint32_t k,
+                                                const Progress& progress) const {
+    sample_count = std::min(sample_count, m_photons.count);
+    NeighborQueries queries;
+    for (std::uint64_t i = 0; i < sample_count; ++i)
+        queries.points.push_back(m_tree.positions.read<glm::vec4>(1, i * m_photons.count / sample_count)[0]);
+    return find_neighbors(m_device, {m_tree}, queries, k, progress).distances.read<float>(sample_count * k);
 }
 
 } // namespace photonloupe

@@ -32,22 +32,19 @@ struct StepReport {
 struct RelaxedColumns {
     PhotonMap map; // without paths
     RelaxedState state;
-    bool has_constraint = false;         // the state has its columns
-    std::uint64_t off_surface_count = 0; // photons that moved in their tangent plane
 };
 
-// The trees that know parameters, where constraint or repulsion look at them.
-struct LayerTrees {
-    const ParameterTree* by_parameters = nullptr;
-    const ParameterTree* layered = nullptr;
-    float parameter_scale = 0; // of `layered`
+// The photons' trees; those that know parameters where constraint or repulsion look at them.
+struct RelaxTrees {
+    std::shared_ptr<const KdTree> by_positions;
+    std::shared_ptr<const ParameterTree> by_parameters, layered;
 };
 
 class Relaxation {
 public:
     // Measures the constraint. Without a surface's scene photons move in their tangent planes.
-    Relaxation(gpu::Device& device, const PhotonMap& photons, const KdTree& tree, const LayerTrees& trees,
-               const RelaxSettings& settings, RelaxSurface surface, const Progress& progress);
+    Relaxation(gpu::Device& device, const PhotonMap& photons, const RelaxTrees& trees, const RelaxSettings& settings,
+               RelaxSurface surface, const Progress& progress);
 
     // One step (Jacobi: all photons see the places before it).
     StepReport step(const Progress& progress);
@@ -57,6 +54,10 @@ public:
     std::uint32_t step_count() const { return m_step; }
     const RelaxSettings& settings() const { return m_settings; }
     RelaxedColumns read() const;
+    // Photons that moved in their tangent plane.
+    std::uint64_t count_off_surface() const;
+    // Distances in metres from some photons, spread evenly over the tree, to their k nearest where they are now.
+    std::vector<float> sample_distances(std::uint64_t sample_count, std::uint32_t k, const Progress& progress) const;
 
 private:
     void find_surface(const Progress& progress);
@@ -64,8 +65,8 @@ private:
     void order_power();
     Neighborhood look() const;
     Queries ask() const;
-    void constrain(const LayerTrees& trees, const Progress& progress);
-    void take_layers(const LayerTrees& trees, const Progress& progress);
+    void constrain(const RelaxTrees& trees, const Progress& progress);
+    void take_layers(const RelaxTrees& trees, const Progress& progress);
     void note_reaches(const ParameterTree& tree, const gpu::Buffer& reaches2, const char* of, float beta);
     RadiusSettings choose_radius(std::uint32_t step) const;
     GatherKernel name_repulsion() const;

@@ -9,10 +9,10 @@
 namespace photonloupe::studio {
 namespace {
 
-inspect::LoupeSpace parse_space(const std::string& name) {
-    return name == "parameter"     ? inspect::LoupeSpace::parameter
-           : name == "constrained" ? inspect::LoupeSpace::constrained
-                                   : inspect::LoupeSpace::world;
+SearchSpace parse_space(const std::string& name) {
+    return name == "parameter"     ? SearchSpace::parameter
+           : name == "constrained" ? SearchSpace::constrained
+                                   : SearchSpace::world;
 }
 
 // The brushes of the parameters' axes; those without one take everything.
@@ -35,7 +35,7 @@ inspect::LoupeQuery make_query(Workspace& workspace, const Photons& photons) {
     query.k = loupe.k;
     query.space = parse_space(loupe.space);
     query.beta = loupe.beta;
-    if (query.space == inspect::LoupeSpace::constrained && photons.map.parameters) {
+    if (query.space == SearchSpace::constrained && photons.map.parameters) {
         if (loupe.lock == "pin" && !loupe.pins.empty())
             query.pinned = loupe.pins.back();
         if (loupe.lock == "brushes")

@@ -140,13 +140,13 @@ void ViewPicture::draw_cells(Workspace& workspace, Photons& photons, std::string
         return;
     }
     const ViewState& view = workspace.state.view;
-    const KdTree& tree = workspace.bench.find_tree(photons);
+    const std::shared_ptr<const KdTree> tree = workspace.bench.find_tree(photons);
     const bool is_tree = view.mode == ViewMode::kd_tree;
     const std::optional<std::uint32_t> depth =
         view.tree_depth < 0 ? std::nullopt : std::optional(static_cast<std::uint32_t>(view.tree_depth));
     const inspect::CellImage cells =
-        is_tree ? inspect::find_kd_cells(workspace.device, photons.map, tree, *m_surface, depth)
-                : inspect::find_voronoi_cells(workspace.device, photons.map, tree, *m_surface);
+        is_tree ? inspect::find_kd_cells(workspace.device, photons.map, *tree, *m_surface, depth)
+                : inspect::find_voronoi_cells(workspace.device, photons.map, *tree, *m_surface);
     const std::vector<std::uint32_t> marks =
         is_tree ? std::vector<std::uint32_t>{} : mark_selected(workspace, photons.map.count);
     workspace.pixels.set(m_texture, cells.width, cells.height,

@@ -131,8 +131,8 @@ struct Workspace {
     // The photons a view plots: "loupe", "all" or "selection". Null with `all`.
     Ids find_source(const std::string& source);
 
-    // What work has given. The trees that views ask for must have been built: the work may read them at the same time.
-    // With `has_same_paths` they are those in view, of which a script changed the parameters alone.
+    // What work has given. With `has_same_paths` they are those in view, of which a script changed the parameters
+    // alone.
     void take_photons(std::shared_ptr<const Scene> scene, std::shared_ptr<Photons> photons,
                       bool has_same_paths = false);
     void take_relaxed(std::shared_ptr<Photons> photons, std::vector<StepResult> steps);

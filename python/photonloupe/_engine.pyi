@@ -37,6 +37,9 @@ class Device:
 
     def self_test(self) -> dict: ...
 
+    def forget(self) -> None:
+        """All stages run again, whatever they are asked."""
+
     def timings(self) -> list: ...
 
 class Scene:
@@ -83,75 +86,52 @@ class PhotonMap:
     def emitted(self) -> int: ...
 
     @property
-    def origin(self) -> list[float]: ...
+    def report(self) -> dict: ...
 
     @property
-    def report(self) -> dict: ...
+    def axes(self) -> list[tuple[str, float, float, float]]:
+        """
+        Of the parameters: name, low, high, and a period, 0 where it does not wrap.
+        """
 
     def tree(self, device: Device) -> dict: ...
 
     @property
-    def positions(self) -> object: ...
+    def names(self) -> list[str]:
+        """Of the columns there are."""
 
-    @property
-    def normals(self) -> object: ...
+    def column(self, name: str) -> object:
+        """The column, read-only; None: there is none."""
 
-    @property
-    def power(self) -> object: ...
+def photons_from_columns(device: Device, columns: dict, axes: Sequence[tuple[str, float, float, float]], store: str, emitted: int) -> PhotonMap:
+    """Upload checked columns as a photon map; axes as of its parameters."""
 
-    @property
-    def emitter(self) -> NDArray[numpy.int32]: ...
+def share_photons(device: Device, photons: PhotonMap) -> PhotonMap:
+    """The same photons in the same memory, with parameters of their own."""
 
-    @property
-    def emitted_index(self) -> NDArray[numpy.uint64]: ...
+def select_photons(device: Device, photons: PhotonMap, ids: Annotated[NDArray[numpy.uint32], dict(shape=(None,), order='C', writable=False)]) -> PhotonMap:
+    """Some photons, all columns."""
 
-    @property
-    def object(self) -> NDArray[numpy.int32]: ...
-
-    @property
-    def path_vertices(self) -> object: ...
-
-    @property
-    def path_offsets(self) -> object: ...
-
-    @property
-    def path_normals(self) -> object: ...
-
-    @property
-    def path_interactions(self) -> object: ...
-
-    @property
-    def path_objects(self) -> object: ...
-
-    @property
-    def path_scatter(self) -> object: ...
-
-def photons_from_columns(device: Device, columns: dict, store: str = 'caustic') -> PhotonMap:
-    """Upload checked columns as a photon map."""
+def find_signature(photons: PhotonMap, interactions: Sequence[int]) -> NDArray[numpy.uint32]:
+    """
+    Ids of the photons whose paths, which the map must have, went through just these.
+    """
 
 def find_neighbors(device: Device, photons: PhotonMap, points: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order='C', writable=False)] | None, ids: Annotated[NDArray[numpy.uint32], dict(shape=(None,), order='C', writable=False)] | None, k: int, query: dict, progress: object | None = None) -> tuple:
     """
     The k nearest photons of points, or of photons by id (n,); exactly one is not None. query: space, beta, center, low, high.
     """
 
-def set_parameters(device: Device, photons: PhotonMap, values: Annotated[NDArray[numpy.float32], dict(shape=(None, None), order='C', writable=False)], axes: list) -> None:
-    """
-    Replace a map's parameters (n, m); of each: name, low, high, and a period, 0 where it does not wrap.
-    """
-
-def set_state(photons: PhotonMap, columns: dict) -> None:
-    """Give a map the checked columns that a relaxation left."""
-
-def set_paths(device: Device, photons: PhotonMap, columns: dict) -> None:
-    """Give a map the checked path columns of its photons."""
-
-def set_colors(device: Device, photons: PhotonMap, values: Annotated[NDArray[numpy.float32], dict(shape=(None, 3), order='C', writable=False)]) -> None:
-    """Replace a map's false colors (n, 3); NaN: none, shown in grey."""
+def set_parameters(device: Device, photons: PhotonMap, values: Annotated[NDArray[numpy.float32], dict(shape=(None, None), order='C', writable=False)], axes: Sequence[tuple[str, float, float, float]]) -> None:
+    """Replace a map's parameters (n, m)."""
 
 def trace_photons(device: Device, scene: Scene, settings: dict, progress: object | None = None) -> PhotonMap:
     """
     Trace photons; settings: count, emitted, seed, emission, store, max_bounces, paths.
     """
+
+def record_paths(device: Device, photons: PhotonMap, scene: Scene, settings: dict, progress: object | None = None) -> None:
+    """Give traced photons their paths, by tracing them again."""
 
 class Script:
     def __init__(self, text: bytes, name: str) -> None: ...
@@ -179,7 +159,7 @@ class Script:
 
     def run(self, device: Device, photons: PhotonMap, settings: dict, progress: object | None = None) -> dict:
         """
-        Run over a map; settings: values, keep, seed, fuel, exhausted, seconds, and what keep keeps: parameters, old_values, old_colors.
+        Run over a map; settings: values, keep, seed, fuel, exhausted, seconds.
         """
 
 def list_script_builtins() -> list:
@@ -196,12 +176,26 @@ class Relaxation:
     def notes(self) -> list[str]:
         """What makes parameters useless here, with the cure."""
 
-    def read(self) -> tuple:
-        """(map, state columns by photon id, photons off their surface)."""
+    @property
+    def off_surface(self) -> int:
+        """Photons that moved in their tangent plane."""
+
+    def sample_distances(self, count: int, k: int) -> NDArray[numpy.float32]:
+        """
+        Distances (m, k) of photons spread evenly over the map to their nearest, where they are now.
+        """
+
+    def read(self) -> PhotonMap:
+        """The map as it is now."""
 
 def measure_isotropy(device: Device, photons: PhotonMap, k: int, progress: object | None = None) -> NDArray[numpy.float32]:
     """
     Axis ratios (n,) of the world positions of each photon's k neighbours in parameter space; NaN: none.
+    """
+
+def relax_photons(device: Device, photons: PhotonMap, scene: object | None, settings: dict, progress: object | None = None) -> tuple:
+    """
+    All steps of a relaxation: the map, what each step did, notes, photons off their surface; settings as start_relaxation.
     """
 
 def start_relaxation(device: Device, photons: PhotonMap, scene: object | None, settings: dict, progress: object | None = None) -> Relaxation:
@@ -379,7 +373,7 @@ class Studio:
 
     def deliver_photons(self, scene: Scene | None, photons: PhotonMap, has_same_paths: bool) -> None: ...
 
-    def deliver_relaxed(self, photons: PhotonMap | None, steps: Sequence[Sequence[float]], stopped_at: int | None) -> None: ...
+    def deliver_relaxed(self, photons: PhotonMap, steps: Sequence[Sequence[float]], stopped_at: int | None) -> None: ...
 
     def deliver_steps(self, arg: Sequence[Sequence[float]], /) -> None: ...
 
@@ -432,9 +426,6 @@ class Studio:
 
 def open_studio(device: Device, size: tuple[int, int], scale: float, offscreen: bool) -> Studio:
     """The interactive tool, in a window or without."""
-
-def build_view_trees(device: Device, photons: PhotonMap) -> None:
-    """Build every tree that views ask a map's queries of."""
 
 def find_cache_folder() -> str:
     """The per-user folder for what can be made again; empty: there is none."""

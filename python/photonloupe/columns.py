@@ -38,19 +38,22 @@ class Column:
         return (*((self.depth,) if self.depth else ()), *((self.width,) if self.width else ()))
 
 
+# The engine packs objects into 24 bits, of which one value stands for none.
+LARGEST_OBJECT = 2**24 - 2
+
 PHOTON_COLUMNS = (
     Column("positions", "f4", 3),
     Column("normals", "f4", 3),
     Column("power", "f4", 3, low=0.0),
     Column("emitter", "i4", low=0),
     Column("emitted_index", "u8", low=0),
-    Column("object", "i4", low=-1),
+    Column("object", "i4", low=-1, high=LARGEST_OBJECT),
 )
 PATH_COLUMNS = (
     Column("path_vertices", "f4", 3, of_vertices=True),
     Column("path_normals", "f4", 3, of_vertices=True),
     Column("path_interactions", "u1", of_vertices=True, low=0, high=2),
-    Column("path_objects", "i4", of_vertices=True, low=-1),
+    Column("path_objects", "i4", of_vertices=True, low=-1, high=LARGEST_OBJECT),
     Column("path_scatter", "f4", of_vertices=True, low=0.0, high=1.0),
 )
 PATH_OFFSETS = Column("path_offsets", "i8")
@@ -67,8 +70,6 @@ STATE_COLUMNS = (
     Column("pressure", "f4", low=0.0),
 )
 ALL_COLUMNS = {column.name: column for column in (*PHOTON_COLUMNS, PATH_OFFSETS, *PATH_COLUMNS, *STATE_COLUMNS)}
-# What a constraint or a relaxation measured, beside the places it found.
-RELAXED_NAMES = ("drift", "pressure", "constraint_basis", "constraint_weights", "gradient", "one_sidedness")
 PATH_NAMES = (PATH_OFFSETS.name, *(column.name for column in PATH_COLUMNS))
 REQUIRED = ("positions", "normals", "power")
 

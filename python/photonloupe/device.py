@@ -46,6 +46,10 @@ class Device:
         """Run one small dispatch and check its result: ``{"ok": bool, "milliseconds": float, …}``."""
         return dict(self._native.self_test())
 
+    def forget_results(self) -> None:
+        """Let every stage run again, also one that is asked what it was asked before: for measuring."""
+        self._native.forget()
+
     def timings(self) -> list[dict[str, Any]]:
         """Time per stage since the last call: stage, milliseconds, dispatches."""
         return [dict(row) for row in self._native.timings()]

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from photonloupe import _engine
 from photonloupe.checks import check_count, check_number
-from photonloupe.device import open_device
 from photonloupe.device_photons import DevicePhotons
 from photonloupe.errors import ArgumentError
 from photonloupe.progress import ProgressLike, follow_progress
@@ -90,8 +89,7 @@ def optimal_beta(
     if "parameters" not in photons.recorded:
         raise ArgumentError("optimal_beta needs parameters; set_parameters() or a script sets them")
     with follow_progress(progress) as callback:
-        device = open_device(photons.device)._native
-        values = np.asarray(_engine.measure_isotropy(device, photons.upload(), k, callback))
+        values = np.asarray(_engine.measure_isotropy(photons.device._native, photons._native, k, callback))
     known = values[~np.isnan(values)]
     if len(known) == 0:
         named = ", ".join(repr(name) for name in photons.parameter_names)

@@ -5,10 +5,12 @@ from __future__ import annotations
 
 import os
 
-from photonloupe import storage
-from photonloupe.device import Device
-from photonloupe.parameters import read_parameters
-from photonloupe.photons import PhotonMap
+from photonloupe import _engine, storage
+from photonloupe.device import Device, open_device
+from photonloupe.errors import FileFormatError
+from photonloupe.parameters import list_axes, read_parameters
+from photonloupe.photons import MAX_EMITTED, PhotonMap
+from photonloupe.tracing import STORES
 
 
 def load_photons(path: str | os.PathLike[str], *, device: Device | int | str | None = None) -> PhotonMap:
@@ -32,13 +34,17 @@ def load_photons(path: str | os.PathLike[str], *, device: Device | int | str | N
     """
     columns, meta = storage.read_map(path)
     values = columns.get("parameters")
+    axes = [] if values is None else list_axes(read_parameters(meta.get("parameters", []), values))
+    opened = open_device(device)
+    # What a map stores decides what a composite adds to it.
+    store = meta["settings"].get("store", "caustic")
+    if store not in STORES or not 0 <= meta["emitted"] <= MAX_EMITTED:
+        raise FileFormatError(f"{path} does not say rightly what was emitted and stored; save the map again")
     return PhotonMap(
-        columns,
-        emitted=meta["emitted"],
+        _engine.photons_from_columns(opened._native, columns, axes, store, meta["emitted"]),
+        opened,
         settings=meta["settings"],
         report=meta["report"],
         provenance=meta["provenance"],
-        device=device,
-        parameters=() if values is None else read_parameters(meta.get("parameters", []), values),
         relaxation=meta.get("relaxation"),
     )

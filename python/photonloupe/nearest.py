@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from photonloupe import _engine
 from photonloupe.checks import check_choice, check_count, check_number, check_rows, check_vectors
-from photonloupe.device import open_device
 from photonloupe.device_photons import DevicePhotons
 from photonloupe.errors import ArgumentError
 from photonloupe.parameters import FIRST_DIMENSION, Parameter
@@ -45,12 +44,12 @@ def find_neighbors(
     if space != "world" and "parameters" not in photons.recorded:
         raise ArgumentError(f'space="{space}" needs parameters; set_parameters() or a script sets them')
     ids, vectors = _read_query(photons, points, space)
-    query: dict[str, Any] = {"space": space, "beta": 0.0, "center": -1, "low": None, "high": None}
+    query: dict[str, Any] = {"space": space, "beta": 0.0, "center": None, "low": None, "high": None}
     if space == "constrained":
         query.update(_check_layer(photons, ids is not None, beta, center, ranges, progress))
     with follow_progress(progress) as callback:
-        device = open_device(photons.device)._native
-        found, distances = _engine.find_neighbors(device, photons.upload(), vectors, ids, k, query, callback)
+        device = photons.device._native
+        found, distances = _engine.find_neighbors(device, photons._native, vectors, ids, k, query, callback)
     return np.asarray(found), np.asarray(distances)
 
 

@@ -109,6 +109,11 @@ def _check_bounds(bounds: ArrayLike | None, columns: NDArray[np.float32]) -> lis
     return limits
 
 
+def list_axes(parameters: Sequence[Parameter]) -> list[tuple[str, float, float, float]]:
+    """List name, bounds and period of each parameter, as the engine takes them."""
+    return [(parameter.name, parameter.low, parameter.high, parameter.period) for parameter in parameters]
+
+
 def describe_parameters(parameters: Sequence[Parameter]) -> list[dict[str, Any]]:
     """Turn parameters into what is saved with a map."""
     return [asdict(parameter) for parameter in parameters]

@@ -9,81 +9,87 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from photonloupe.columns import Columns
+from photonloupe import _engine
+from photonloupe.columns import PATH_NAMES, Columns
+from photonloupe.device import Device
 from photonloupe.errors import PhotonLoupeError
-from photonloupe.parameters import Parameter, check_parameters
+from photonloupe.parameters import Parameter, check_parameters, list_axes
 
 Float3 = NDArray[np.float32]
 
 
 class PhotonColumns:
-    """Row i of every column belongs to photon i; path columns are flat, with offsets."""
+    """Row i of every column belongs to photon i; path columns are flat, with offsets.
 
-    _columns: Columns
-    _parameters: tuple[Parameter, ...]
+    The engine's map owns them; these are views, read-only and kept as long as the column stays the same.
+    """
+
+    _native: _engine.PhotonMap
+    _device: Device
+    _views: Columns
 
     def __len__(self) -> int:
-        return len(self.positions)
+        return int(self._native.count)
 
     @property
     def positions(self) -> Float3:
         """Where the photons are stored, (n, 3), m."""
-        return self._columns["positions"]
+        return self._read("positions")
 
     @property
     def normals(self) -> Float3:
         """Unit normal of the surface, on the side the light came from, (n, 3)."""
-        return self._columns["normals"]
+        return self._read("normals")
 
     @property
     def power(self) -> Float3:
         """Flux carried, (n, 3), W per channel."""
-        return self._columns["power"]
+        return self._read("power")
 
     @property
     def emitter(self) -> NDArray[np.int32]:
         """Index of the light, (n,)."""
-        return self._columns["emitter"]
+        return self._read("emitter")
 
     @property
     def emitted_index(self) -> NDArray[np.uint64]:
         """Which emitted photon it is, (n,): with the seed it determines the whole path."""
-        return self._columns["emitted_index"]
+        return self._read("emitted_index")
 
     @property
     def object(self) -> NDArray[np.int32]:
         """Object it lies on, (n,); -1 where there is none."""
-        return self._columns["object"]
+        return self._read("object")
 
     @property
     def path_offsets(self) -> NDArray[np.int64]:
         """First vertex of each path in the flat path columns, (n + 1,)."""
-        return self._read_path_column("path_offsets")
+        return self._read("path_offsets")
 
     @property
     def path_vertices(self) -> Float3:
         """Vertices of all paths, emitter and storage point included, (v, 3), m."""
-        return self._read_path_column("path_vertices")
+        return self._read("path_vertices")
 
     @property
     def path_normals(self) -> Float3:
         """Unit normals at the vertices, (v, 3)."""
-        return self._read_path_column("path_normals")
+        return self._read("path_normals")
 
     @property
     def path_interactions(self) -> NDArray[np.uint8]:
         """What happened at the vertices, (v,): 1 reflected, 2 transmitted, 0 at the ends."""
-        return self._read_path_column("path_interactions")
+        return self._read("path_interactions")
 
     @property
     def path_objects(self) -> NDArray[np.int32]:
         """Objects the vertices lie on, (v,); -1 at a light."""
-        return self._read_path_column("path_objects")
+        return self._read("path_objects")
 
     @property
     def path_scatter(self) -> NDArray[np.float32]:
         """How diffuse each interaction was, (v,): 0 mirror-like to 1 diffuse."""
-        return self._read_path_column("path_scatter")
+        return self._read("path_scatter")
 
     def set_parameters(
         self,
@@ -121,35 +127,34 @@ class PhotonColumns:
         (('phi',), [True, True])
         """
         columns, parameters = check_parameters(values, len(self), names, bounds, periodic)
-        self._add_columns({"parameters": columns})
-        self._parameters = parameters
-        self._upload_parameters()
+        _engine.set_parameters(self._device._native, self._native, columns, list_axes(parameters))
+        self._views.pop("parameters", None)
 
     @property
     def parameter_list(self) -> tuple[Parameter, ...]:
         """Names, bounds and periods of the parameters."""
-        return self._parameters
+        return tuple(Parameter(name, low, high, period > 0.0) for name, low, high, period in self._native.axes)
 
     @property
     def parameter_names(self) -> tuple[str, ...]:
         """Names of the parameters, dimensions from 3 on."""
-        return tuple(parameter.name for parameter in self._parameters)
+        return tuple(parameter.name for parameter in self.parameter_list)
 
     @property
     def parameter_bounds(self) -> NDArray[np.float32]:
         """Lower and upper bound of each parameter, (m, 2)."""
-        rows = [(parameter.low, parameter.high) for parameter in self._parameters]
+        rows = [(parameter.low, parameter.high) for parameter in self.parameter_list]
         return np.array(rows, dtype=np.float32).reshape(-1, 2)
 
     @property
     def parameter_periodic(self) -> NDArray[np.bool_]:
         """Whether each parameter wraps, (m,)."""
-        return np.array([parameter.periodic for parameter in self._parameters], dtype=bool)
+        return np.array([parameter.periodic for parameter in self.parameter_list], dtype=bool)
 
     @property
     def parameters(self) -> NDArray[np.float32]:
         """Parameters set by a script or by `set_parameters`, (n, m); NaN where a photon has none."""
-        return self._read_state("parameters", "set_parameters() or a script")
+        return self._read("parameters", "set_parameters() or a script")
 
     @property
     def parameters_set(self) -> NDArray[np.bool_]:
@@ -159,68 +164,64 @@ class PhotonColumns:
     @property
     def colors(self) -> Float3:
         """False colors that a script encoded, (n, 3), linear; NaN where it gave none (shown in grey)."""
-        return self._read_state("colors", "run_script() with setPhotonColourEncoding")
+        return self._read("colors", "run_script() with setPhotonColourEncoding")
 
     @property
     def constraint_basis(self) -> NDArray[np.float32]:
         """Unit tangent vectors along and across the structure, u_b and v_b, (n, 2, 3)."""
-        return self._read_state("constraint_basis", "constrain() or relax()")
+        return self._read("constraint_basis", "constrain() or relax()")
 
     @property
     def constraint_weights(self) -> NDArray[np.float32]:
         """Share of movement forbidden along u_b and v_b, w_u and w_v, (n, 2): 0 free to 1 fixed."""
-        return self._read_state("constraint_weights", "constrain() or relax()")
+        return self._read("constraint_weights", "constrain() or relax()")
 
     @property
     def gradient(self) -> Float3:
         """Relative gradient of the photon density, ∇f/f, (n, 3), 1/m (METHODS section 5.1)."""
-        return self._read_state("gradient", "constrain() or relax()")
+        return self._read("gradient", "constrain() or relax()")
 
     @property
     def one_sidedness(self) -> NDArray[np.float32]:
         """How far a photon's neighbors lie on one side, c_m, (n,): 0 evenly around, 1 on a hard edge."""
-        return self._read_state("one_sidedness", "constrain() or relax()")
+        return self._read("one_sidedness", "constrain() or relax()")
 
     @property
     def traced_positions(self) -> Float3:
         """Where the photons were before any relaxation, (n, 3), m; paths end there."""
-        return self._columns.get("traced_positions", self.positions)
+        return self._read("traced_positions") if "traced_positions" in self.recorded else self.positions
 
     @property
     def drift(self) -> Float3:
         """Displacement since the constraint was measured, (n, 3), m."""
-        return self._read_state("drift", "relax()")
+        return self._read("drift", "relax()")
 
     @property
     def pressure(self) -> NDArray[np.float32]:
         """Force of the last step before constraint and limiter over the radius, |f'|/r, (n,)."""
-        return self._read_state("pressure", "relax()")
+        return self._read("pressure", "relax()")
 
     @property
     def recorded(self) -> tuple[str, ...]:
         """Names of the columns that are there without tracing again."""
-        return tuple(self._columns)
+        return tuple(self._native.names)
 
-    def _add_columns(self, columns: Columns) -> None:
-        for name, array in columns.items():
-            view = array.view()
-            view.setflags(write=False)
-            self._columns[name] = view
+    def read_columns(self) -> Columns:
+        """Return all columns that are there, by name."""
+        return {name: self._read(name) for name in self.recorded}
 
-    def _record_paths(self) -> None:
+    def record_paths(self) -> None:
+        """Record the paths, by tracing the photons again, unless they are there."""
         raise NotImplementedError
 
-    def _upload_parameters(self) -> None:
-        raise NotImplementedError
-
-    def _read_path_column(self, name: str) -> NDArray[Any]:
-        if name not in self._columns:
-            self._record_paths()
-        if name not in self._columns:
-            raise PhotonLoupeError(f"this map has no {name}; it holds {', '.join(self.recorded)}")
-        return self._columns[name]
-
-    def _read_state(self, name: str, maker: str) -> NDArray[Any]:
-        if name not in self._columns:
-            raise PhotonLoupeError(f"this map has no {name}; {maker} makes it")
-        return self._columns[name]
+    def _read(self, name: str, maker: str = "") -> NDArray[Any]:
+        """Read a column; paths are recorded now if need be, what else is missing has a maker."""
+        if name not in self._views:
+            if name in PATH_NAMES:
+                self.record_paths()
+            values = self._native.column(name)
+            if values is None:
+                how = f"; {maker} makes it" if maker else f"; it holds {', '.join(self.recorded)}"
+                raise PhotonLoupeError(f"this map has no {name}{how}")
+            self._views[name] = np.asarray(values)
+        return self._views[name]

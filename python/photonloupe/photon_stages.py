@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from photonloupe import queries
-from photonloupe.device import open_device
 from photonloupe.device_photons import DevicePhotons
 from photonloupe.nearest import DEFAULT_BETA, find_neighbors
 from photonloupe.photon_columns import Float3
@@ -114,9 +113,8 @@ class PhotonStages(DevicePhotons):
             If a point or normal is not finite, a normal is zero, or k or kernel is not offered.
         """
         k = queries.choose_k(self.settings) if k is None else k
-        device = open_device(self.device)
         return queries.estimate_irradiance(
-            device, self.upload(), points, normals, k=k, kernel=kernel, progress=progress
+            self._device, self._native, points, normals, k=k, kernel=kernel, progress=progress
         )
 
     def run_script(

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from photonloupe import exporting, storage
+from photonloupe import _engine, exporting, storage
 from photonloupe.checks import check_count, check_rows
-from photonloupe.columns import PHOTON_COLUMNS, STATE_COLUMNS, check_columns
+from photonloupe.columns import check_columns
 from photonloupe.device import Device, open_device
 from photonloupe.errors import ArgumentError
 from photonloupe.parameters import describe_parameters
-from photonloupe.paths import gather_paths, match_signature
+from photonloupe.paths import parse_signature
 from photonloupe.photon_stages import PhotonStages
 from photonloupe.provenance import describe_origin
 from photonloupe.scene import Scene
@@ -113,7 +113,9 @@ class PhotonMap(PhotonStages):
         least = int(columns["emitted_index"].max(initial=0)) + 1
         emitted = least if emitted is None else check_count("emitted", emitted, least, MAX_EMITTED)
         provenance = {**describe_origin(None, surface, {}), "source": "arrays"}
-        return cls(columns, emitted=emitted, provenance=provenance, scene=surface, device=device)
+        opened = open_device(device)
+        native = _engine.photons_from_columns(opened._native, columns, [], "caustic", emitted)
+        return cls(native, opened, provenance=provenance, scene=surface)
 
     @property
     def total_flux(self) -> NDArray[np.float64]:
@@ -123,7 +125,7 @@ class PhotonMap(PhotonStages):
     @property
     def tree(self) -> dict[str, Any]:
         """The kd-tree: split_axis, split_value, first, count, box (nodes, 6), order."""
-        return dict(self.upload().tree(open_device(self._device)._native))
+        return dict(self._native.tree(self._device._native))
 
     def select(self, ids: ArrayLike | None = None, *, signature: str | int | None = None) -> PhotonMap:
         """Make a map of some of the photons; fluxes and the number emitted stay as they are.
@@ -145,26 +147,14 @@ class PhotonMap(PhotonStages):
             If an id is not a photon, a mask is not n long, or not exactly one of the two is given.
         """
         if signature is not None and ids is None:
-            self._record_paths()
-            rows = match_signature(self._columns, signature)
+            wanted = parse_signature(signature)
+            self._read("path_interactions")
+            rows = _engine.find_signature(self._native, wanted)
         elif ids is not None and signature is None:
-            rows = check_rows(ids, len(self))
+            rows = np.ascontiguousarray(check_rows(ids, len(self)), dtype=np.uint32)
         else:
             raise ArgumentError("select takes either a mask or ids, or signature=")
-        kept = [column.name for column in (*PHOTON_COLUMNS, *STATE_COLUMNS) if column.name in self._columns]
-        columns = {name: self._columns[name][rows] for name in kept}
-        columns.update(gather_paths(self._columns, rows))
-        return PhotonMap(
-            columns,
-            emitted=self._emitted,
-            settings=self._settings,
-            report=self._report,
-            provenance=self._provenance,
-            scene=self._scene,
-            device=self._device,
-            parameters=self._parameters,
-            relaxation=self._relaxation,
-        )
+        return self.replace(_engine.select_photons(self._device._native, self._native, rows))
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the map as a Zarr v3 folder; an older map there stays until the new one is whole.
@@ -174,15 +164,15 @@ class PhotonMap(PhotonStages):
         FileFormatError
             If something that is not a photon map is in the way, or the folder cannot be written.
         """
-        storage.write_map(path, self._columns, self._describe())
+        storage.write_map(path, self.read_columns(), self._describe())
 
     def to_arrow(self) -> pyarrow.Table:
         """Copy the recorded columns into an Arrow table; vectors are fixed-size lists, paths lists."""
-        return exporting.build_table(self._columns)
+        return exporting.build_table(self.read_columns())
 
     def to_pandas(self) -> pandas.DataFrame:
         """Copy the photon columns into a data frame, vectors as three columns each; needs pandas."""
-        return exporting.build_frame(self._columns)
+        return exporting.build_frame(self.read_columns())
 
     def __repr__(self) -> str:
         flux = ", ".join(f"{value:.4g}" for value in self.total_flux)
@@ -191,13 +181,13 @@ class PhotonMap(PhotonStages):
 
     def _describe(self) -> dict[str, Any]:
         described: dict[str, Any] = {
-            "emitted": self._emitted,
+            "emitted": self.emitted,
             "settings": self._settings,
             "report": self._report,
             "provenance": self._provenance,
         }
-        if self._parameters:
-            described["parameters"] = describe_parameters(self._parameters)
+        if self.parameter_list:
+            described["parameters"] = describe_parameters(self.parameter_list)
         if self._relaxation:
             described["relaxation"] = self._relaxation
         return described

@@ -4,15 +4,17 @@
 from __future__ import annotations
 
 import logging
+from collections.abc import Mapping, Sequence
 from typing import Any, Generic, TypeVar, Unpack
 
 import numpy as np
+from numpy.typing import NDArray
 
 from photonloupe import _engine
-from photonloupe.device import open_device
 from photonloupe.device_photons import DevicePhotons
 from photonloupe.progress import ProgressLike, follow_progress
 from photonloupe.relax_settings import AllRelaxKeywords, check_settings
+from photonloupe.scene import Scene
 
 LOG = logging.getLogger("photonloupe")
 
@@ -48,21 +50,14 @@ class Relaxation(Generic[PhotonsT]):
         self._source = photons
         self._settings = check_settings(photons, progress, **settings)
         self._rows: list[dict[str, Any]] = []
-        self._device = open_device(photons.device)
-        self._scene = photons.find_surface() if self._settings["surface"] == "auto" else None
-        native_scene = None if self._scene is None else self._scene._native
-        native_settings = {
-            **self._settings,
-            "limit": self._settings["limit"] or 0.0,
-            # The engine divides by the number of steps, even where none is made.
-            "steps": max(self._settings["steps"], 1),
-        }
+        self._scene = _find_surface(photons, self._settings)
+        # The engine divides by the number of steps, even where none is made.
+        native_settings = _make_native(self._settings, max(self._settings["steps"], 1))
         with follow_progress(progress) as callback:
             self._native = _engine.start_relaxation(
-                self._device._native, photons.upload(), native_scene, native_settings, callback
+                photons.device._native, photons._native, _take_native(self._scene), native_settings, callback
             )
-        for note in self.notes:
-            LOG.warning(note)
+        _warn(self.notes)
 
     def __repr__(self) -> str:
         told = self._settings
@@ -108,28 +103,71 @@ class Relaxation(Generic[PhotonsT]):
     @property
     def report(self) -> dict[str, Any]:
         """Settings, one row per step, and where photons move: on their surface, or in tangent planes."""
-        return self._describe(self._native.read()[2])
+        return self._describe()
 
     @property
     def photons(self) -> PhotonsT:
         """The map as it is now, with constraint, drift and pressure."""
-        native, state, off_surface = self._native.read()
-        columns = {name: np.asarray(values) for name, values in state.items()}
-        return self._source.replace_positions(native, columns, self._describe(off_surface))
+        return self._source.replace(self._native.read(), self._describe())
 
-    def _describe(self, off_surface: int) -> dict[str, Any]:
-        return {
-            "settings": dict(self._settings),
-            "steps": [dict(row) for row in self._rows],
-            "surface": "tangent planes" if self._scene is None else str(self._scene.path),
-            "notes": self.notes,
-            "off_surface": int(len(self._source) if self._scene is None else off_surface),
-        }
+    def sample_distances(self, count: int, k: int) -> NDArray[np.float32]:
+        """Find how far the k nearest are of some photons, spread evenly over the map, where they are now.
+
+        Returns
+        -------
+        (m, k) float32
+            m, nearest first; at most `count` rows.
+        """
+        return np.asarray(self._native.sample_distances(count, k))
+
+    def _describe(self) -> dict[str, Any]:
+        return _describe(self._settings, self._rows, self._scene, self.notes, self._native.off_surface)
 
 
 def relax_photons(photons: PhotonsT, progress: ProgressLike, **settings: Unpack[AllRelaxKeywords]) -> PhotonsT:
     """Run a whole relaxation; see `PhotonMap.relax`."""
-    relaxation = Relaxation(photons, progress=progress, **settings)
-    for _ in range(relaxation.steps):
-        relaxation.step(progress=progress)
-    return relaxation.photons
+    checked = check_settings(photons, progress, **settings)
+    scene = _find_surface(photons, checked)
+    with follow_progress(progress) as callback:
+        native, rows, notes, off_surface = _engine.relax_photons(
+            photons.device._native,
+            photons._native,
+            _take_native(scene),
+            _make_native(checked, checked["steps"]),
+            callback,
+        )
+    _warn(notes)
+    return photons.replace(native, _describe(checked, rows, scene, notes, off_surface))
+
+
+def _find_surface(photons: DevicePhotons, settings: Mapping[str, Any]) -> Scene | None:
+    return photons.find_surface() if settings["surface"] == "auto" else None
+
+
+def _take_native(scene: Scene | None) -> _engine.Scene | None:
+    return None if scene is None else scene._native
+
+
+def _make_native(settings: Mapping[str, Any], steps: int) -> dict[str, Any]:
+    return {**settings, "limit": settings["limit"] or 0.0, "steps": steps}
+
+
+def _warn(notes: Sequence[str]) -> None:
+    for note in notes:
+        LOG.warning(note)
+
+
+def _describe(
+    settings: Mapping[str, Any],
+    rows: Sequence[Mapping[str, Any]],
+    scene: Scene | None,
+    notes: Sequence[str],
+    off_surface: int,
+) -> dict[str, Any]:
+    return {
+        "settings": dict(settings),
+        "steps": [dict(row) for row in rows],
+        "surface": "tangent planes" if scene is None else str(scene.path),
+        "notes": list(notes),
+        "off_surface": int(off_surface),
+    }

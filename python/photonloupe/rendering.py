@@ -86,7 +86,7 @@ def render(
     """
     settings = _check_settings(scene, photons, camera, width, height, samples, mode, k, kernel, seed)
     opened = open_device(device)
-    native = None if photons is None else photons.upload()
+    native = None if photons is None else photons._native
     with follow_progress(progress) as callback:
         pixels = _engine.render_image(opened._native, scene._native, native, settings, callback)
     provenance = describe_origin(opened, scene, settings)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -14,10 +14,8 @@ from numpy.typing import NDArray
 
 from photonloupe import _engine
 from photonloupe.checks import check_count, check_number
-from photonloupe.device import open_device
 from photonloupe.device_photons import DevicePhotons
 from photonloupe.errors import ArgumentError, FileFormatError, ScriptError
-from photonloupe.parameters import Parameter
 from photonloupe.progress import ProgressLike, follow_progress
 
 SUFFIX = ".photon"
@@ -252,22 +250,17 @@ def run_script(
         "seed": check_count("seed", seed, 0, MAX_SEED),
         **_check_limits(limits),
     }
-    if keep:
-        settings["parameters"] = [asdict(parameter) for parameter in photons.parameter_list]
-        settings["old_values"] = np.ascontiguousarray(photons.parameters) if photons.parameter_list else None
-        settings["old_colors"] = np.ascontiguousarray(photons.colors) if "colors" in photons.recorded else None
-    native = photons.upload_columns(compiled.columns)
+    photons.require_columns(compiled.columns)
     with follow_progress(progress) as callback:
-        found = compiled._native.run(open_device(photons.device)._native, native, settings, callback)
-    parameters = tuple(Parameter(**row) for row in found["parameters"])
-    columns = found["values"].reshape(len(photons), len(parameters))
+        found = compiled._native.run(photons.device._native, photons._native, settings, callback)
     made_by = {"name": compiled.name, "hash": compiled.hash, "values": found["exposed"], "seed": settings["seed"]}
-    photons.take_script_columns(columns, parameters, found["colors"], {**made_by, "keep": settings["keep"]})
+    photons.take_script({**made_by, "keep": settings["keep"]})
+    recorded = photons.recorded
     return ScriptRun(
-        parameters=columns,
-        parameter_names=tuple(parameter.name for parameter in parameters),
-        parameter_bounds=np.array([(p.low, p.high) for p in parameters], dtype=np.float32).reshape(-1, 2),
-        colors=found["colors"],
+        parameters=photons.parameters if "parameters" in recorded else np.zeros((len(photons), 0), dtype=np.float32),
+        parameter_names=photons.parameter_names,
+        parameter_bounds=photons.parameter_bounds,
+        colors=photons.colors if "colors" in recorded else None,
         histograms={row.pop("name"): _make_histogram(row) for row in found["histograms"]},
         prints=tuple(found["prints"]),
         exposed=dict(found["exposed"]),

@@ -6,14 +6,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
-
 from photonloupe import _engine
 from photonloupe.checks import check_choice, check_count
-from photonloupe.columns import MAX_PHOTONS, PATH_NAMES, PHOTON_COLUMNS, Columns
+from photonloupe.columns import MAX_PHOTONS, PATH_NAMES, PHOTON_COLUMNS
 from photonloupe.device import Device, open_device
 from photonloupe.errors import ArgumentError
-from photonloupe.paths import read_path_columns
 from photonloupe.photons import PhotonMap
 from photonloupe.progress import ProgressLike, follow_progress
 from photonloupe.provenance import describe_origin
@@ -93,17 +90,13 @@ def trace_photons(
     opened = open_device(device)
     with follow_progress(progress) as callback:
         native = _engine.trace_photons(opened._native, scene._native, settings, callback)
-    taken: Columns = {column.name: np.asarray(getattr(native, column.name)) for column in PHOTON_COLUMNS}
-    taken.update(read_path_columns(native))
     return PhotonMap(
-        taken,
-        emitted=int(native.emitted),
+        native,
+        opened,
         settings=settings,
         report=native.report,
         provenance=describe_origin(opened, scene, settings),
         scene=scene,
-        device=opened,
-        native=native,
     )
 
 

@@ -3,15 +3,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from photonloupe.photons import PhotonMap
-
-Doubles = NDArray[np.float64]
+from photonloupe.inspect.columns import column
+from photonloupe.photons import PhotonMap
 
 
 def find_primal_trajectory(photons: PhotonMap) -> NDArray[np.float32]:
@@ -23,7 +19,7 @@ def find_primal_trajectory(photons: PhotonMap) -> NDArray[np.float32]:
 
     w is the mean direction of all photons of the same emitter, u and v follow from it by Duff's branchless
     construction, so that the tear at θ = π lies behind the light that was stored. Near in this plane is near in
-    direction: Euclidean distance serves as that of the parameter space.
+    direction: Euclidean distance serves as that of the parameter space. The columns ``primal_u`` and ``primal_v``.
 
     Parameters
     ----------
@@ -48,48 +44,4 @@ def find_primal_trajectory(photons: PhotonMap) -> NDArray[np.float32]:
     >>> photons.parameter_names, bool(photons.parameters_set.all())
     (('right', 'up'), True)
     """
-    directions = _find_emission_directions(photons)
-    trajectory = np.full((len(photons), 2), np.nan)
-    known = ~np.isnan(directions).any(axis=1)
-    for emitter in np.unique(photons.emitter[known]):
-        own = known & (photons.emitter == emitter)
-        trajectory[own] = _flatten(directions[own])
-    return trajectory.astype(np.float32)
-
-
-def _find_emission_directions(photons: PhotonMap) -> Doubles:
-    """Find unit vectors along the first segments, (n, 3); NaN where there is none."""
-    offsets = photons.path_offsets
-    vertices = photons.path_vertices.astype(np.float64)
-    directions = np.full((len(photons), 3), np.nan)
-    rows = np.flatnonzero(np.diff(offsets) >= 2)
-    first = offsets[rows]
-    segments = vertices[first + 1] - vertices[first]
-    lengths = np.linalg.norm(segments, axis=1)
-    apart = lengths > 0.0
-    directions[rows[apart]] = segments[apart] / lengths[apart, None]
-    return directions
-
-
-def _flatten(directions: Doubles) -> Doubles:
-    """Turn the unit vectors of one emitter into points of the plane about their mean."""
-    mean = directions.mean(axis=0)
-    # Directions that cancel have no mean; any axis is as good then, one of them is defined.
-    w = mean if mean.any() else directions[0]
-    w = w / np.linalg.norm(w)
-    u, v = _build_basis(w)
-    along_u, along_v = directions @ u, directions @ v
-    across = np.hypot(along_u, along_v)
-    # atan2 where the equation has acos, whose error near θ = 0 is the root of the rounding.
-    theta = np.arctan2(across, directions @ w)
-    phi = np.arctan2(along_u, along_v)
-    return np.stack([theta * np.sin(phi), theta * np.cos(phi)], axis=1)
-
-
-def _build_basis(w: Doubles) -> tuple[Doubles, Doubles]:
-    """Tangents u and v of a unit vector, without a branch (Duff et al., JCGT 6(1), 2017)."""
-    sign = np.copysign(1.0, w[2])
-    a = -1.0 / (sign + w[2])
-    b = w[0] * w[1] * a
-    u = np.array([1.0 + sign * w[0] ** 2 * a, sign * b, -sign * w[0]])
-    return u, np.array([b, sign + w[1] ** 2 * a, -w[1]])
+    return np.stack([column(photons, name).values for name in ("primal_u", "primal_v")], axis=1)

@@ -38,7 +38,7 @@ class OurBuild:
         self.device_milliseconds: list[float] = []
 
     def run(self, number: int) -> float:
-        """Seconds of a fresh map's first query less those of a warm one: upload, build, and what the host adds."""
+        """Seconds of a fresh map's first query less those of a warm one: the build, and what the host adds."""
         columns = {name: getattr(self.photons, name) for name in ("positions", "normals", "power")}
         fresh = pl.PhotonMap.from_arrays(**columns, device=self.device)
         self.device.timings()
@@ -79,8 +79,8 @@ def measure() -> Subject:
     subject = Subject("kd-tree, build")
     subject.notes += [
         "Photons of the ring caustic, random emission. Ours: the first `neighbors([0], 1)` of a map fresh from arrays "
-        "less the fastest of five warm ones, so the upload of the columns and the host's share count; in brackets the "
-        "device's own time for the stage. SciPy: defaults, float64 copy included. nanoflann: leaves of 16, one thread.",
+        "less the fastest of five warm ones, so the host's share counts; in brackets the device's own time for the "
+        "stage. SciPy: defaults, float64 copy included. nanoflann: leaves of 16, one thread.",
     ]
     nanoflann = Nanoflann()
     subject.skipped += [

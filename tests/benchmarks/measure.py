@@ -10,6 +10,8 @@ import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
+from photonloupe.device import open_device
+
 PAIRS = 3
 
 # One round: takes the round's number (0 is the warm-up); a float it returns is its seconds, else its wall time counts.
@@ -57,6 +59,7 @@ def time_in_turn(rounds: Mapping[str, Round], pairs: int = PAIRS) -> dict[str, l
     seconds: dict[str, list[float]] = {name: [] for name in rounds}
     for number in range(pairs + 1):
         for name, run in rounds.items():
+            open_device().forget_results()
             start = time.perf_counter()
             told = run(number)
             spent = told if isinstance(told, float) else time.perf_counter() - start

@@ -95,6 +95,7 @@ def set_space(photons: pl.PhotonMap, space: str) -> None:
 def time_work(photons: pl.PhotonMap, work: Work, seconds: float) -> float | str:
     """Seconds of one work, or why it did not end well."""
     deadline = Deadline(seconds)
+    photons.device.forget_results()
     start = time.perf_counter()
     try:
         work(photons, deadline)

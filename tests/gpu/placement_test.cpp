@@ -37,9 +37,12 @@ Results run_stages(gpu::Device& device) {
     const auto photons = workbench.trace_photons(scene, {.count = 3000}, {});
     Results results;
     results.positions = photons->map.position_emitter.read<std::uint32_t>(4 * photons->map.count);
-    results.small_ids = workbench.find_neighbors(*photons, points, 10, {}).ids.read<std::uint32_t>(10 * QUERIES);
-    results.large_ids = workbench.find_neighbors(*photons, points, 400, {}).ids.read<std::uint32_t>(400 * QUERIES);
-    results.own_ids = workbench.find_neighbors_of(*photons, ids, 10, {}).ids.read<std::uint32_t>(10 * ids.size());
+    results.small_ids =
+        workbench.find_neighbors(*photons, {.places = points, .k = 10}, {}).ids.read<std::uint32_t>(10 * QUERIES);
+    results.large_ids =
+        workbench.find_neighbors(*photons, {.places = points, .k = 400}, {}).ids.read<std::uint32_t>(400 * QUERIES);
+    results.own_ids =
+        workbench.find_neighbors(*photons, {.ids = ids, .k = 10}, {}).ids.read<std::uint32_t>(10 * ids.size());
     results.irradiance =
         workbench.estimate_irradiance(*photons, points, normals, {.k = 20}, {}).read<std::uint32_t>(4 * QUERIES);
     results.image =

@@ -44,7 +44,7 @@ TEST(Loupe, ranges_lock_the_layer_around_a_photon_too) {
     LoupeQuery query;
     query.photon = 7;
     query.k = COUNT;
-    query.space = LoupeSpace::constrained;
+    query.space = SearchSpace::constrained;
     query.low = {-0.25f};
     query.high = {0.5f};
     const LoupeView view = look_through_loupe(bench, photons, query);
@@ -63,14 +63,14 @@ TEST(Loupe, keeps_parameters_in_tree_order_until_they_change) {
     Workbench bench(get_device());
     Photons photons = make_layers();
     LoupeQuery query;
-    query.space = LoupeSpace::constrained;
+    query.space = SearchSpace::constrained;
     look_through_loupe(bench, photons, query);
-    const ParameterTree* kept = &bench.find_layered_tree(photons);
+    const std::shared_ptr<const ParameterTree> kept = bench.find_layered_tree(photons);
     look_through_loupe(bench, photons, query);
-    EXPECT_EQ(&bench.find_layered_tree(photons), kept);
-    ASSERT_TRUE(photons.layered_tree);
-    photons.forget_parameters();
-    EXPECT_FALSE(photons.layered_tree);
+    EXPECT_EQ(bench.find_layered_tree(photons), kept);
+    set_parameters(get_device(), photons, std::vector<float>(COUNT), {{"east", 0, 1, 0}});
+    look_through_loupe(bench, photons, query);
+    EXPECT_NE(bench.find_layered_tree(photons), kept);
 }
 
 TEST(Loupe, refuses_what_does_not_fit_the_map) {
@@ -78,7 +78,7 @@ TEST(Loupe, refuses_what_does_not_fit_the_map) {
     LoupeQuery missing, pinned, ranges, parameters, nowhere, none;
     missing.photon = COUNT;
     pinned.pinned = COUNT;
-    ranges.space = parameters.space = LoupeSpace::constrained;
+    ranges.space = parameters.space = SearchSpace::constrained;
     ranges.low = ranges.high = {0, 0};
     nowhere.point[1] = NAN;
     none.k = 0;

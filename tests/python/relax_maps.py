@@ -42,5 +42,5 @@ def set_parameters(photons: pl.PhotonMap) -> None:
 
 def read_column(photons: pl.PhotonMap, name: str) -> tuple[Any, ...]:
     """Type, shape and bits of a column, also of the traced positions, which have no attribute."""
-    values = photons._columns[name]
+    values = photons.read_columns()[name]
     return values.dtype, values.shape, values.tobytes()

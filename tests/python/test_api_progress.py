@@ -7,6 +7,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 
 import numpy as np
 import pytest
@@ -95,3 +96,27 @@ def test_render_reports_between_the_estimates_of_one_chunk(ring: pl.Scene) -> No
     pl.render(ring, photons, width=128, height=128, samples=4, k=100, progress=lambda _, done: fractions.append(done))
     # 65,536 samples fit one chunk of eye paths; Ctrl-C must not wait for all their estimates.
     assert len({done for done in fractions if 0.0 < done < 1.0}) >= 3
+
+
+@pytest.mark.parametrize("work", ["neighbors", "set_parameters", "share"])
+def test_threads_wait_for_each_others_tree_without_the_lock_of_python(work: str) -> None:
+    rng = np.random.default_rng(0)
+    photons = pl.PhotonMap.from_arrays(
+        positions=rng.random((100_000, 3)), normals=[[0, 1, 0]] * 100_000, power=np.ones((100_000, 3))
+    )
+    works = {
+        "neighbors": lambda: photons.neighbors([0], 1),
+        "set_parameters": lambda: photons.set_parameters(photons.positions[:, 0]),
+        "share": photons.share,
+    }
+    others: list[threading.Thread] = []
+
+    def start_other(stage: str, fraction: float) -> None:
+        if not others:
+            others.append(threading.Thread(target=works[work]))
+            others[0].start()
+            others[0].join(0.05)  # it cannot end before the tree is there, and must not keep us from going on
+
+    found = photons.neighbors([0], 1, progress=start_other)[0]
+    others[0].join()
+    np.testing.assert_array_equal(photons.neighbors([0], 1)[0], found)

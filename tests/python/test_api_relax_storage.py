@@ -142,7 +142,7 @@ def test_saved_state_that_cannot_be_is_refused(
 
 @pytest.mark.parametrize("name", STATE)
 def test_selection_keeps_the_state_of_its_photons(relaxed: pl.PhotonMap, name: str) -> None:
-    rows = relaxed._columns[name][[9, 4]]
+    rows = relaxed.read_columns()[name][[9, 4]]
     assert read_column(relaxed.select([9, 4]), name) == (rows.dtype, rows.shape, rows.tobytes())
 
 

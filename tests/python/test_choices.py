@@ -21,7 +21,7 @@ TRACE: dict[str, Any] = {
     "max_bounces": 4,
     "paths": False,
 }
-NEIGHBORS: dict[str, Any] = {"space": "world", "beta": 0.0, "center": -1, "low": None, "high": None}
+NEIGHBORS: dict[str, Any] = {"space": "world", "beta": 0.0, "center": None, "low": None, "high": None}
 
 
 @pytest.mark.parametrize(
@@ -41,7 +41,7 @@ def test_neighbors_name_the_choices() -> None:
     ids = np.zeros(1, dtype=np.uint32)
     with pytest.raises(pl.PhotonLoupeError, match="space is 'wrld'; it must be world, parameter or constrained"):
         _engine.find_neighbors(
-            open_device(None)._native, photons.upload(), None, ids, 1, {**NEIGHBORS, "space": "wrld"}, None
+            open_device(None)._native, photons._native, None, ids, 1, {**NEIGHBORS, "space": "wrld"}, None
         )
 
 
@@ -49,4 +49,4 @@ def test_relaxation_names_the_choices() -> None:
     photons = pl.PhotonMap.from_arrays(positions=np.eye(3), normals=np.eye(3), power=np.ones((3, 3)))
     settings = {**pl.Relaxation(photons, steps=1, descriptor="none").settings, "limit": 0.0, "search": "exakt"}
     with pytest.raises(pl.PhotonLoupeError, match="search is 'exakt'; it must be exact or carried"):
-        _engine.start_relaxation(open_device(None)._native, photons.upload(), None, settings, None)
+        _engine.start_relaxation(open_device(None)._native, photons._native, None, settings, None)

@@ -153,4 +153,4 @@ def test_underside_moves_photons_as_the_upper_side() -> None:
 )
 def test_two_runs_give_the_same_bits(settings: dict[str, Any]) -> None:
     first, second = (make_layers("flat", COUNT).program.relax(STEPS, 6, **settings) for _ in range(2))
-    assert all(first._columns[name].tobytes() == second._columns[name].tobytes() for name in first.recorded)
+    assert all(first.read_columns()[name].tobytes() == second.read_columns()[name].tobytes() for name in first.recorded)

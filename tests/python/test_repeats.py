@@ -47,7 +47,7 @@ maps = [
     photons.relax(3, descriptor="pca", constraint="world", search="carried"),
 ]
 arrays = [
-    *(array for relaxed in maps for array in relaxed._columns.values()),
+    *(array for relaxed in maps for array in relaxed.read_columns().values()),
     *photons.neighbors(every, 40, space="parameter"), *photons.neighbors(every, 40, space="constrained"),
     pl.optimal_beta(photons).isotropy.values,
 ]

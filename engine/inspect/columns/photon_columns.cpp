@@ -104,8 +104,9 @@ void list_parameter_sources(std::vector<ColumnSource>& sources, const Photons& p
         if (axes[i].name.empty() || taken.contains(name))
             name = "parameter." + std::to_string(i + script::FIRST_DIMENSION);
         taken.insert(name);
-        sources.push_back({name, axes[i].name.empty() ? name : axes[i].name, Needs::parameters, axes[i].low,
-                           axes[i].high, axes[i].period, false, read_parameter(i)});
+        sources.push_back({name, axes[i].name.empty() ? name : axes[i].name, Needs::parameters,
+                           static_cast<float>(axes[i].low), static_cast<float>(axes[i].high),
+                           static_cast<float>(axes[i].period), false, read_parameter(i)});
     }
 }
 

@@ -74,9 +74,9 @@ std::size_t RunOutputs::find_histogram(const std::string& name, float low, float
 
 LoopReport& RunOutputs::find_loop(const Statement& loop) {
     for (LoopReport& report : loops)
-        if (report.loop == &loop)
+        if (report.loop.begin == loop.span.begin && report.loop.end == loop.span.end)
             return report;
-    return loops.emplace_back(LoopReport{&loop});
+    return loops.emplace_back(LoopReport{loop.span});
 }
 
 FaultReport& RunOutputs::find_fault(const FaultSite& site) {

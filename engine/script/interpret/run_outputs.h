@@ -38,7 +38,7 @@ struct FaultReport {
 
 // A photon loop, all its runs together.
 struct LoopReport {
-    const Statement* loop = nullptr;
+    Span loop; // of its statement
     bool is_parallel = false;
     std::uint32_t runs = 0;
     double milliseconds = 0;

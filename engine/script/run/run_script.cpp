@@ -85,9 +85,9 @@ public:
         m_interpreter.emplace(script.program, script.plan, m_host, m_outputs, settings, progress);
     }
 
-    ScriptRun finish(const KeptColumns* kept) {
-        if (kept)
-            take_kept(*kept);
+    ScriptRun finish(bool keeps) {
+        if (keeps)
+            take_kept();
         m_interpreter->run([this](const PhotonLoop& loop, Interpreter& interpreter, LoopReport& report) {
             return m_passes->run(loop, interpreter, report);
         });
@@ -95,17 +95,26 @@ public:
     }
 
 private:
-    void take_kept(const KeptColumns& kept) {
+    // The parameters and colors that the map has.
+    void take_kept() {
         ScriptColumns& columns = m_outputs.columns;
-        for (std::size_t i = 0; i < kept.declared.size(); ++i)
-            columns.declare(static_cast<std::uint32_t>(FIRST_DIMENSION + i), kept.declared[i]);
-        for (std::size_t i = 0; i < kept.declared.size(); ++i)
-            for (std::size_t photon = 0; photon < m_photons.count; ++photon)
-                if (const float value = kept.values[photon * kept.declared.size() + i]; !std::isnan(value))
-                    columns.write_parameter(i, photon, value);
-        for (std::size_t i = 0; i < kept.colors.size(); i += 3)
-            if (!std::isnan(kept.colors[i]))
-                columns.write_color(i / 3, {kept.colors[i], kept.colors[i + 1], kept.colors[i + 2]});
+        if (const auto& kept = m_photons.parameters)
+            for (std::uint32_t i = 0; i < kept->count; ++i) {
+                const ParameterAxis& axis = kept->axes[i];
+                columns.declare(FIRST_DIMENSION + i, {axis.name, static_cast<float>(axis.low),
+                                                      static_cast<float>(axis.high), axis.period > 0});
+            }
+        if (const auto& kept = m_photons.parameters)
+            for (std::uint32_t i = 0; i < kept->count; ++i)
+                for (std::size_t photon = 0; photon < m_photons.count; ++photon)
+                    if (const float value = (*kept->given)[photon * kept->count + i]; !std::isnan(value))
+                        columns.write_parameter(i, photon, value);
+        if (!m_photons.given_colors)
+            return;
+        const std::vector<float>& colors = *m_photons.given_colors;
+        for (std::size_t i = 0; i < colors.size(); i += 3)
+            if (!std::isnan(colors[i]))
+                columns.write_color(i / 3, {colors[i], colors[i + 1], colors[i + 2]});
     }
 
     std::vector<float> gather_values() {
@@ -242,21 +251,10 @@ std::vector<DeclaredParameter> list_declared(const ScriptRun& run) {
     return declared;
 }
 
-std::vector<float> choose_shown_colors(const ScriptRun& run) {
-    std::vector<float> colors = run.colors.value_or(std::vector<float>());
-    const std::size_t width = run.parameters.size();
-    for (std::size_t i = 0; width > 0 && i < run.values.size(); ++i)
-        if (std::isnan(run.values[i]))
-            std::fill_n(colors.begin() + static_cast<std::ptrdiff_t>(3 * (i / width)), 3,
-                        std::numeric_limits<float>::quiet_NaN());
-    return colors;
-}
-
 ScriptRun run_script(gpu::Device& device, const PhotonMap& photons, const CompiledScript& script,
-                     const RunSettings& settings, const KeptColumns* kept, const ScriptQueries& queries,
-                     const Progress& progress) {
+                     const RunSettings& settings, bool keeps, const ScriptQueries& queries, const Progress& progress) {
     require_script(script);
-    return Run(device, photons, script, settings, queries, progress).finish(kept);
+    return Run(device, photons, script, settings, queries, progress).finish(keeps);
 }
 
 } // namespace photonloupe::script

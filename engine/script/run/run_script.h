@@ -37,9 +37,6 @@ struct ScriptRun {
 
 std::vector<DeclaredParameter> list_declared(const ScriptRun& run);
 
-// Colors as they are shown, rgb a photon: NaN (grey) also where a declared parameter is unset.
-std::vector<float> choose_shown_colors(const ScriptRun& run);
-
 // What neighbour queries need of the photons while a script changes their parameters.
 struct ScriptQueries {
     FindRows find_rows;
@@ -47,16 +44,9 @@ struct ScriptQueries {
     std::function<void(std::span<const float> values, const std::vector<DeclaredParameter>&)> set_parameters;
 };
 
-// What is kept of an earlier run.
-struct KeptColumns {
-    std::vector<DeclaredParameter> declared;
-    std::vector<float> values; // [photon][dimension - 3]
-    std::vector<float> colors; // rgb a photon; empty: none
-};
-
-// `kept` may be null. Throws Error for values that are not exposed or out of range, and what devices throw.
+// Where it `keeps`, what the map has stays until the script replaces it. Throws Error for values that are not exposed
+// or out of range, and what devices throw.
 ScriptRun run_script(gpu::Device& device, const PhotonMap& photons, const CompiledScript& script,
-                     const RunSettings& settings, const KeptColumns* kept, const ScriptQueries& queries,
-                     const Progress& progress);
+                     const RunSettings& settings, bool keeps, const ScriptQueries& queries, const Progress& progress);
 
 } // namespace photonloupe::script

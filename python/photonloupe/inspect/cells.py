@@ -15,7 +15,7 @@ from photonloupe.checks import check_count
 from photonloupe.device import Device, open_device
 from photonloupe.errors import ArgumentError
 from photonloupe.image import Image
-from photonloupe.inspect.columns import upload_for
+from photonloupe.inspect.columns import require_columns
 from photonloupe.photons import PhotonMap
 from photonloupe.progress import ProgressLike, follow_progress
 from photonloupe.provenance import describe_origin
@@ -187,10 +187,10 @@ def voronoi(
     settings = _check_view(scene, camera, width, height, through_glass)
     settings["flatness"] = SURFACE_FLATNESS if same_surface else 0.0
     settings["color"] = color
-    native = upload_for(photons, () if color == "encoding" else (color,))
-    opened = open_device(photons.device)
+    require_columns(photons, () if color == "encoding" else (color,))
+    opened = photons.device
     with follow_progress(progress) as callback:
-        row = _engine.find_voronoi_cells(opened._native, native, scene._native, settings, callback)
+        row = _engine.find_voronoi_cells(opened._native, photons._native, scene._native, settings, callback)
     return _make_view(row, describe_origin(opened, scene, {"mode": "voronoi", **settings}))
 
 
@@ -240,9 +240,9 @@ def kd_tree(
     scene = _choose_scene(photons, scene)
     settings = _check_view(scene, camera, width, height, through_glass)
     settings["depth"] = None if depth is None else check_count("depth", depth, 0, MAX_DEPTH)
-    opened = open_device(photons.device)
+    opened = photons.device
     with follow_progress(progress) as callback:
-        row = _engine.find_kd_cells(opened._native, photons.upload(), scene._native, settings, callback)
+        row = _engine.find_kd_cells(opened._native, photons._native, scene._native, settings, callback)
     return _make_view(row, describe_origin(opened, scene, {"mode": "kd-tree", **settings}))
 
 

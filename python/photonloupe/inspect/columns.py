@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from photonloupe import _engine
-from photonloupe.device import open_device
 from photonloupe.errors import ArgumentError, PhotonLoupeError
 from photonloupe.photons import PhotonMap
 from photonloupe.progress import ProgressLike, follow_progress
@@ -78,7 +77,7 @@ def columns(photons: PhotonMap) -> tuple[ColumnInfo, ...]:
     >>> [info.name for info in pl.inspect.columns(pl.PhotonMap.from_arrays(**pair))][:3]
     ['x', 'y', 'z']
     """
-    rows = [ColumnInfo(**row) for row in _engine.list_columns(_require_map(photons).upload())]
+    rows = [ColumnInfo(**row) for row in _engine.list_columns(_require_map(photons)._native)]
     if not photons.can_have_paths:
         return tuple(rows)
     # They are recorded when they are asked for.
@@ -113,9 +112,9 @@ def column(photons: PhotonMap, name: str, *, progress: ProgressLike = None) -> C
     >>> float(pl.inspect.column(photons, "signature").values.min())
     1.0
     """
-    native = upload_for(photons, (name,))
+    require_columns(photons, (name,))
     with follow_progress(progress) as callback:
-        return make_column(_engine.find_column(open_device(photons.device)._native, native, name, callback))
+        return make_column(_engine.find_column(photons.device._native, photons._native, name, callback))
 
 
 def make_column(row: dict[str, Any]) -> Column:
@@ -123,8 +122,8 @@ def make_column(row: dict[str, Any]) -> Column:
     return Column(**{**row, "values": np.asarray(row["values"])})
 
 
-def upload_for(photons: PhotonMap, names: tuple[str, ...]) -> _engine.PhotonMap:
-    """Return the map on the device with what these columns need.
+def require_columns(photons: PhotonMap, names: tuple[str, ...]) -> None:
+    """Record what these columns need, if need be.
 
     Raises
     ------
@@ -137,13 +136,11 @@ def upload_for(photons: PhotonMap, names: tuple[str, ...]) -> _engine.PhotonMap:
             raise ArgumentError(f"there is no column {name!r}; the columns are {', '.join(infos)}")
         if infos[name].missing:
             raise ArgumentError(f"column {name!r}: {infos[name].missing}")
-    native = photons.upload()
     if any(infos[name].needs_paths for name in names):
         try:
-            native = photons.upload_paths()
+            photons.record_paths()
         except PhotonLoupeError as error:
             raise ArgumentError(f"column {names[0]!r} needs paths: {error}") from error
-    return native
 
 
 def _require_map(photons: Any) -> PhotonMap:

@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from photonloupe import _engine
 from photonloupe.checks import check_choice, check_count, check_vectors
-from photonloupe.device import open_device
 from photonloupe.errors import ArgumentError
 from photonloupe.nearest import DEFAULT_BETA, MAX_NEIGHBORS, SPACES, read_ranges
 from photonloupe.photons import PhotonMap
@@ -178,10 +177,11 @@ def loupe(
     line_count = check_count("paths", paths, 0, MAX_NEIGHBORS)
     if line_count and not photons.can_have_paths:
         raise ArgumentError("this map has no paths and cannot record them; give them to from_arrays")
-    native = photons.upload_paths() if photons.can_have_paths else photons.upload()
+    if photons.can_have_paths:
+        photons.record_paths()
     with follow_progress(progress) as callback:
-        row = _engine.look_through_loupe(open_device(photons.device)._native, native, query, callback)
-    return _make_view(native, row, line_count)
+        row = _engine.look_through_loupe(photons.device._native, photons._native, query, callback)
+    return _make_view(photons._native, row, line_count)
 
 
 def _check_place(photons: PhotonMap, point: ArrayLike | int, normal: ArrayLike | None) -> dict[str, Any]:

@@ -11,10 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from photonloupe import _engine
 from photonloupe.checks import check_count, check_rows
-from photonloupe.device import open_device
 from photonloupe.errors import ArgumentError
 from photonloupe.image import Image
-from photonloupe.inspect.columns import upload_for
+from photonloupe.inspect.columns import require_columns
 from photonloupe.photons import PhotonMap
 from photonloupe.rendering import MAX_SIDE
 
@@ -110,7 +109,7 @@ def scatter(
     """
     color = "encoding" if color is None else color
     names = (x, y) if color == "encoding" else (x, y, color)
-    native = upload_for(photons, names)
+    require_columns(photons, names)
     if len(tuple(size)) != 2:
         raise ArgumentError(f"size must be (width, height), not {size!r}")
     settings = {
@@ -125,7 +124,7 @@ def scatter(
         "dense_from": check_count("dense_from", dense_from, 0, _MOST),
     }
     chosen = None if selection is None else check_rows(selection, len(photons)).tolist()
-    row = _engine.plot_scatter(open_device(photons.device)._native, native, settings, chosen)
+    row = _engine.plot_scatter(photons.device._native, photons._native, settings, chosen)
     rgba = row.pop("rgba").reshape(settings["height"], settings["width"], 4)
     return ScatterPlot(image=_lay_on_ground(rgba), rgba=rgba, _find_data=row.pop("to_data"), **row)
 

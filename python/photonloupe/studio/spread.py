@@ -8,8 +8,6 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from photonloupe.photons import PhotonMap
-
 # Photons looked at; neighbors of the noisy and of the smooth estimate.
 SAMPLE = 1000
 FEW, MANY = 20, 100
@@ -18,7 +16,7 @@ _FEWEST_PHOTONS = 2 * MANY
 _DEVIATION = 1.4826
 
 
-def measure_spread(photons: PhotonMap, seed: int = 0) -> tuple[float, float]:
+def measure_spread(distances: NDArray[np.float32]) -> tuple[float, float]:
     """Measure low-frequency power and noise of the density around a sample of the photons.
 
     Low-frequency power is the variance of log r₂₅² - 2 log r₅₀² + log r₁₀₀², r_k the distance to the k-th neighbor,
@@ -28,10 +26,8 @@ def measure_spread(photons: PhotonMap, seed: int = 0) -> tuple[float, float]:
 
     Parameters
     ----------
-    photons
-        Any map.
-    seed
-        Of the sample.
+    distances
+        (m, 101) of the sample to their nearest photons.
 
     Returns
     -------
@@ -44,14 +40,13 @@ def measure_spread(photons: PhotonMap, seed: int = 0) -> tuple[float, float]:
     >>> from photonloupe.studio.spread import measure_spread
     >>> spots = np.random.default_rng(0).random((20_000, 3)) * [1, 0, 1]
     >>> photons = pl.PhotonMap.from_arrays(positions=spots, normals=[[0, 1, 0]] * 20_000, power=np.ones((20_000, 3)))
-    >>> power, noise = measure_spread(photons)
+    >>> power, noise = measure_spread(photons.neighbors(np.arange(0, 20_000, 20), 101)[1])
     >>> bool(0.8 < power < 1.2), bool(0.2 < noise < 0.3)
     (True, True)
     """
-    if len(photons) < _FEWEST_PHOTONS:
+    if len(distances) < _FEWEST_PHOTONS:
         return math.nan, math.nan
-    ids = np.random.default_rng(seed).choice(len(photons), min(SAMPLE, len(photons)), replace=False)
-    squared = photons.neighbors(np.sort(ids), MANY + 1)[1].astype(np.float64) ** 2
+    squared = distances.astype(np.float64) ** 2
     with np.errstate(divide="ignore", invalid="ignore"):
         bend = np.log(squared[:, 24]) - 2 * np.log(squared[:, 49]) + np.log(squared[:, 99])
         ratio = _estimate(squared, FEW) / _estimate(squared, MANY)

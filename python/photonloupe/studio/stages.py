@@ -27,7 +27,7 @@ from photonloupe.relaxing import Relaxation
 from photonloupe.rendering import render
 from photonloupe.scene import Scene, load_scene
 from photonloupe.scripting import Histogram, Script, ScriptRun
-from photonloupe.studio.spread import measure_spread
+from photonloupe.studio.spread import MANY, SAMPLE, measure_spread
 from photonloupe.tracing import trace_photons
 
 Progress = Callable[[str, float], bool]
@@ -40,7 +40,7 @@ _MILLISECONDS = 1000.0
 class Stages:
     """Scene, photons, relaxation and images of a studio; one thread uses it.
 
-    Photons that the interface shows are never changed: a script runs over the other of two copies.
+    Photons that the interface shows are never changed: a script runs over others in the same memory.
     """
 
     def __init__(self, device: Device, native: _engine.Studio) -> None:
@@ -49,7 +49,6 @@ class Stages:
         self.scene: Scene | None = None
         self.traced: PhotonMap | None = None
         self.photons: PhotonMap | None = None  # with what the script gave them
-        self._spare: PhotonMap | None = None
         self.relaxed: PhotonMap | None = None
         self.image: Image | None = None
         self._opened: Scene | None = None  # takes the scene's place with the next trace
@@ -94,8 +93,7 @@ class Stages:
             device=self._device,
             progress=progress,
         )
-        # The engine hands the same map to whoever asks for the same photons again: ours is shown from another thread.
-        self._take_photons(photons.select(np.arange(len(photons))))
+        self._take_photons(photons)
 
     def _load_map(self, settings: dict[str, Any], progress: Progress) -> None:
         photons = load_photons(settings["map"], device=self._device)
@@ -110,48 +108,35 @@ class Stages:
         if len(photons) == 0:
             raise ArgumentError("there are no photons to look at; trace more, or another store")
         try:
-            photons.upload_columns(PATH_NAMES)
+            photons.record_paths()
         except PhotonLoupeError as error:
-            photons.upload()
             self._native.say(f"without paths: {error}", False)
         self.traced = photons
-        self._spare = None
         self._show(photons, has_same_paths=False)
 
     def _show(self, photons: PhotonMap, *, has_same_paths: bool) -> None:
-        """Let the interface show photons, their trees built."""
-        native = photons.upload()
-        _engine.build_view_trees(self._device._native, native)
+        """Let the interface show photons."""
         self.photons = photons
         self.relaxed = None
         self._relaxation = None
         self._relaxation_key = ""
-        self._native.deliver_photons(None if self.scene is None else self.scene._native, native, has_same_paths)
-
-    def _take_spare(self) -> PhotonMap:
-        """Return a copy of the traced photons that is not shown."""
-        assert self.traced is not None
-        if self._spare is None:
-            self._spare = self.traced.select(np.arange(len(self.traced)))
-            if "path_offsets" in self._spare.recorded:
-                self._spare.upload_columns(PATH_NAMES)
-        return self._spare
+        scene = None if self.scene is None else self.scene._native
+        self._native.deliver_photons(scene, photons._native, has_same_paths)
 
     def _run_script(self, settings: dict[str, Any], progress: Progress) -> None:
         if self.traced is None:
             raise PhotonLoupeError("there are no photons to run the script over; open a scene")
         if not settings["text"]:
             if self.photons is not self.traced:
-                self._load_again()
+                self._native.forget_script()
+                self._show(self.traced, has_same_paths=True)
             return
         script = _make_script(settings)
         values = {name: value for name, value in settings["values"].items() if name in _list_exposed(script)}
-        target = self._take_spare()
+        target = self.traced.share()
         start = time.perf_counter()
         run = target.run_script(script, values=values, progress=progress)
         milliseconds = _MILLISECONDS * (time.perf_counter() - start)
-        # What was shown until now is free for the next run, unless it is the map as it was traced.
-        shown = self.photons
         self._native.deliver_script(
             [_describe_histogram(name, histogram) for name, histogram in run.histograms.items()],
             list(run.prints),
@@ -159,13 +144,6 @@ class Stages:
             milliseconds,
         )
         self._show(target, has_same_paths=True)
-        self._spare = None if shown is self.traced else shown
-
-    def _load_again(self) -> None:
-        assert self.traced is not None
-        self._spare = None
-        self._native.forget_script()
-        self._show(self.traced, has_same_paths=True)
 
     def _relax(self, settings: dict[str, Any], progress: Progress) -> None:
         assert self.photons is not None
@@ -179,7 +157,7 @@ class Stages:
         try:
             while relaxation.step_count < made:
                 row = relaxation.step(progress=progress)
-                low_frequency, noise = measure_spread(relaxation.photons)
+                low_frequency, noise = measure_spread(relaxation.sample_distances(SAMPLE, MANY + 1))
                 self._rows.append((row["mean_displacement"], row["mean_move"], low_frequency, noise))
                 self._native.deliver_steps(self._rows)
                 if not progress("relax", relaxation.step_count / made):
@@ -192,11 +170,7 @@ class Stages:
     def _show_relaxed(self, relaxation: Relaxation[PhotonMap], *, stopped_at: int | None) -> None:
         """Let the interface show the photons as far as they are relaxed; stopped half way, those steps stay."""
         self.relaxed = relaxation.photons
-        native = self.relaxed.upload()
-        if "path_offsets" in self.relaxed.recorded:
-            native = self.relaxed.upload_columns(PATH_NAMES)
-        _engine.build_view_trees(self._device._native, native)
-        self._native.deliver_relaxed(native, self._rows, stopped_at)
+        self._native.deliver_relaxed(self.relaxed._native, self._rows, stopped_at)
 
     def _measure_isotropy(self, settings: dict[str, Any], progress: Progress) -> None:
         assert self.photons is not None

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Some rows of a map's columns.
+#pragma once
+
+#include <span>
+
+#include "photons/photon_map.h"
+
+namespace photonloupe {
+
+// Rows of a column by photon id, of as many values each as there are.
+template <class T>
+std::vector<T> select_rows(const std::vector<T>& column, std::uint64_t photon_count,
+                           std::span<const std::uint32_t> ids) {
+    const std::size_t width = photon_count ? column.size() / photon_count : 0;
+    std::vector<T> rows;
+    rows.reserve(width * ids.size());
+    for (const std::uint32_t id : ids)
+        rows.insert(rows.end(), column.begin() + static_cast<std::ptrdiff_t>(width * id),
+                    column.begin() + static_cast<std::ptrdiff_t>(width * (id + std::size_t{1})));
+    return rows;
+}
+
+PhotonMap select_photons(gpu::Device& device, const PhotonMap& map, std::span<const std::uint32_t> ids);
+
+// The paths of some of `photon_count` photons, moved by `shift`. Throws Error when they have more vertices than 32 bits
+// count.
+PathColumns select_paths(gpu::Device& device, const PathColumns& paths, std::uint64_t photon_count,
+                         std::span<const std::uint32_t> ids, const std::array<double, 3>& shift = {});
+
+} // namespace photonloupe
