@@ -2,8 +2,9 @@
 // Binds engine/photons: columns as NumPy arrays (views where the memory is shared), the tree, neighbours.
 #include "binding.h"
 
-#include "choices.h"
+#include "inspect/settings.h"
 #include "photons/map_columns.h"
+#include "settings.h"
 
 namespace photonloupe::bindings {
 namespace {
@@ -100,7 +101,9 @@ std::shared_ptr<Photons> make_photons(OpenDevice& open, const nb::dict& columns,
                            take_span<std::int32_t>(columns, "object")};
     auto photons = std::make_shared<Photons>();
     photons->map = make_map(open.device, spans);
-    photons->store = parse_store(store);
+    TraceSettings origin;
+    write_setting(find_setting(list_settings(origin), "store"), store);
+    photons->store = origin.store;
     return photons;
 }
 
@@ -134,8 +137,9 @@ Neighbors find_in_space(OpenDevice& open, Photons& photons, std::span<const doub
 
 nb::tuple find_near(OpenDevice& open, Photons& photons, std::optional<Points> points, std::optional<Ids> ids,
                     std::uint32_t k, const nb::dict& query, nb::object progress) {
-    const inspect::LoupeSpace space = parse_loupe_space(nb::cast<std::string>(query["space"]));
-    const auto beta = nb::cast<float>(query["beta"]);
+    const auto settings = read_settings<inspect::LoupeSettings>(query);
+    const inspect::LoupeSpace space = settings.space;
+    const auto beta = static_cast<float>(settings.beta);
     const auto center = nb::cast<std::int64_t>(query["center"]);
     const auto take = [&](const char* name) {
         return query[name].is_none() ? std::vector<float>{} : nb::cast<std::vector<float>>(query[name]);

@@ -2,6 +2,7 @@
 // Connects the stages and remembers what each was given.
 #include "pipeline.h"
 
+#include "core/settings.h"
 #include "estimate/camera_frame.h"
 #include "estimate/plot_photons.h"
 #include "inspect/photon_colors.h"
@@ -12,14 +13,8 @@
 namespace photonloupe {
 namespace {
 
-std::string make_key(const Scene& scene, const TraceSettings& settings) {
-    std::string key = scene.hash;
-    for (const std::uint64_t value :
-         {settings.count, settings.emitted, std::uint64_t{settings.seed}, static_cast<std::uint64_t>(settings.emission),
-          static_cast<std::uint64_t>(settings.store), std::uint64_t{settings.max_bounces},
-          std::uint64_t{settings.paths}})
-        key += '/' + std::to_string(value);
-    return key;
+std::string make_key(const Scene& scene, TraceSettings settings) {
+    return scene.hash + "/" + write_key(list_settings(settings)) + (settings.paths ? "paths" : "");
 }
 
 void set_script_parameters(gpu::Device& device, Photons& photons, std::span<const float> values,
@@ -224,21 +219,23 @@ std::shared_ptr<Photons> Workbench::take_relaxed(const Photons& source, RelaxedC
     return photons;
 }
 
-Relaxation Workbench::start_relaxation(Photons& photons, const Scene* scene, const RelaxSettings& settings,
+Relaxation Workbench::start_relaxation(Photons& photons, const Scene* scene, const RelaxSettings& given,
                                        const Progress& progress) {
+    const RelaxSettings settings = complete_settings(given, std::nullopt, photons.map.parameters.has_value());
     const KdTree& tree = find_tree(photons, progress);
-    const bool constrains = settings.constraint.descriptor != Descriptor::none;
     LayerTrees trees;
-    if (settings.repel == Space::parameter || (constrains && settings.constraint.space == Space::parameter)) {
-        const bool seeks_constraint = constrains && settings.constraint.space == Space::parameter;
-        const LayerReach reach = seeks_constraint ? LayerReach{settings.constraint.neighbors, settings.constraint.beta}
-                                                  : LayerReach{settings.neighbors, settings.beta};
+    if (settings.uses_layers()) {
+        if (!settings.beta)
+            throw Error("relax: beta is not known yet; measure the photons' isotropy, or give a number");
+        const bool seeks_constraint = settings.constrains() && settings.constraint == Space::parameter;
+        const LayerReach reach{seeks_constraint ? *settings.constraint_neighbors : settings.neighbors,
+                               static_cast<float>(*settings.beta)};
         trees.by_parameters = &find_parameter_tree(photons, progress);
         trees.layered = &find_layered_tree(photons, progress, reach);
         trees.parameter_scale = photons.layered_scale;
     }
     RelaxSurface surface;
-    if (scene)
+    if (scene && settings.surface == SurfaceChoice::automatic)
         surface = {find_buffers(*scene), scene->origin};
     return Relaxation(m_device, photons.map, tree, trees, settings, surface, progress);
 }
@@ -246,7 +243,7 @@ Relaxation Workbench::start_relaxation(Photons& photons, const Scene* scene, con
 gpu::Buffer Workbench::estimate_irradiance(Photons& photons, std::span<const glm::vec4> points,
                                            std::span<const glm::vec4> normals, const EstimateSettings& settings,
                                            const Progress& progress) {
-    require_k(settings.k);
+    require_k(choose_k(settings));
     return estimate_irradiance_at(m_device, photons.map.power_object, find_tree(photons, progress), points, normals,
                                   settings, progress);
 }
@@ -259,30 +256,30 @@ void Workbench::build_view_trees(Photons& photons, const Progress& progress) {
     find_layered_tree(photons, progress);
 }
 
-Image Workbench::render_voronoi(const Scene& scene, Photons& photons, const RenderSettings& settings,
-                                const Progress& progress) {
+Image Workbench::render_voronoi(const Scene& scene, Photons& photons, const CameraChoice& looks,
+                                const RenderSettings& settings, const Progress& progress) {
     const shared::CameraFrame camera =
-        frame_camera(scene, find_camera(scene, settings.camera), settings.width, settings.height);
+        frame_camera(scene, find_camera(scene, looks), settings.width, settings.height);
     const inspect::SurfaceView view = inspect::see_surfaces(m_device, scene, *find_buffers(scene), camera,
                                                             {settings.width, settings.height}, progress);
     const inspect::CellImage cells = inspect::find_voronoi_cells(m_device, photons.map, find_tree(photons, progress),
-                                                                 view, {settings.estimate.flatness}, progress);
+                                                                 view, {}, progress);
     return inspect::paint_cells(cells, inspect::list_encoded_colors(photons.map));
 }
 
-Image Workbench::render(const Scene& scene, Photons* photons, const RenderSettings& settings,
-                        const Progress& progress) {
+Image Workbench::render(const Scene& scene, Photons* photons, const CameraChoice& camera,
+                        const RenderSettings& settings, const Progress& progress) {
     if (!photons)
-        return render_image(m_device, scene, *find_buffers(scene), nullptr, settings, progress);
+        return render_image(m_device, scene, *find_buffers(scene), nullptr, camera, settings, progress);
     if (settings.mode == RenderMode::voronoi)
-        return render_voronoi(scene, *photons, settings, progress);
+        return render_voronoi(scene, *photons, camera, settings, progress);
     const bool needs_tree = settings.mode != RenderMode::photons;
     m_device.compile_ahead(list_render_kernels(scene, photons->store, settings));
     if (needs_tree && !photons->tree)
         expect_tree(m_device, photons->map.count);
     const KdTree none;
     const RenderedMap map{photons->map, needs_tree ? find_tree(*photons, progress) : none, photons->store};
-    return render_image(m_device, scene, *find_buffers(scene), &map, settings, progress);
+    return render_image(m_device, scene, *find_buffers(scene), &map, camera, settings, progress);
 }
 
 } // namespace photonloupe

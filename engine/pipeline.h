@@ -88,7 +88,8 @@ public:
                                  const script::RunSettings& settings, const script::KeptColumns* kept,
                                  const Progress& progress);
 
-    // Measures the constraint and stands ready for the first step; `scene` may be null. The photons must outlive it.
+    // Measures the constraint and stands ready for the first step; `scene` may be null. What is automatic is chosen, as
+    // of photons of unknown emission, but β is known where layers count. The photons must outlive it.
     Relaxation start_relaxation(Photons& photons, const Scene* scene, const RelaxSettings& settings,
                                 const Progress& progress);
 
@@ -100,7 +101,8 @@ public:
                                     const Progress& progress);
 
     // `photons` may be null for direct light alone.
-    Image render(const Scene& scene, Photons* photons, const RenderSettings& settings, const Progress& progress);
+    Image render(const Scene& scene, Photons* photons, const CameraChoice& camera, const RenderSettings& settings,
+                 const Progress& progress);
 
     // The scene on the device, kept until another one is asked for.
     std::shared_ptr<const SceneBuffers> find_buffers(const Scene& scene);
@@ -118,8 +120,8 @@ private:
     gpu::Buffer find_script_rows(Photons& photons, script::NeighborQuery::Space space,
                                  std::span<const std::uint32_t> ids, std::uint32_t k, float beta,
                                  const Progress& progress);
-    Image render_voronoi(const Scene& scene, Photons& photons, const RenderSettings& settings,
-                         const Progress& progress);
+    Image render_voronoi(const Scene& scene, Photons& photons, const CameraChoice& looks,
+                         const RenderSettings& settings, const Progress& progress);
     void take_script_columns(Photons& photons, const script::ScriptRun& run);
 
     gpu::Device& m_device;

@@ -80,6 +80,7 @@ std::optional<std::uint32_t> Look::find_center() const {
 
 Neighbors Look::find_found(std::uint32_t center) const {
     const std::uint32_t ids[] = {center};
+    const auto beta = static_cast<float>(query.beta);
     if (query.space == LoupeSpace::parameter)
         return bench.find_parameter_neighbors_of(photons, ids, query.k, progress);
     const bool is_world = query.space == LoupeSpace::world;
@@ -90,8 +91,8 @@ Neighbors Look::find_found(std::uint32_t center) const {
     if (!query.low.empty())
         return bench.find_range_neighbors(photons, place, query.low, query.high, query.k, progress);
     if (query.photon && !query.pinned)
-        return bench.find_layer_neighbors_of(photons, ids, query.k, query.beta, progress);
-    return bench.find_layer_neighbors(photons, place, query.pinned.value_or(center), query.k, query.beta, progress);
+        return bench.find_layer_neighbors_of(photons, ids, query.k, beta, progress);
+    return bench.find_layer_neighbors(photons, place, query.pinned.value_or(center), query.k, beta, progress);
 }
 
 void Look::take_found(LoupeView& view, const Neighbors& found) const {

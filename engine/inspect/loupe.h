@@ -8,24 +8,16 @@
 #include <utility>
 #include <vector>
 
+#include "inspect/settings.h"
 #include "inspect/spread.h"
 #include "pipeline.h"
 
 namespace photonloupe::inspect {
 
-enum class LoupeSpace {
-    world,       // all photons, by distance in metres
-    parameter,   // by distance in parameter space, around the center photon
-    constrained, // those of a layer, by distance in metres
-};
-
-struct LoupeQuery {
+struct LoupeQuery : LoupeSettings {
     std::array<double, 3> point{};       // world, metres; where `photon` is empty
     std::optional<glm::vec3> normal;     // of the surface at the point: the center lies on its side
     std::optional<std::uint32_t> photon; // instead of a point: around this photon, itself left out
-    std::uint32_t k = 250;               // 1–1000
-    LoupeSpace space = LoupeSpace::world;
-    float beta = 3.0f; // of the layer
     // What locks the layer while the point moves: a pinned photon, or ranges of all parameters. Neither: the layer is
     // the center's.
     std::optional<std::uint32_t> pinned;

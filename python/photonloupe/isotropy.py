@@ -15,9 +15,9 @@ from photonloupe.device import open_device
 from photonloupe.device_photons import DevicePhotons
 from photonloupe.errors import ArgumentError
 from photonloupe.progress import ProgressLike, follow_progress
+from photonloupe.settings import list_settings
 
 BINS = 64
-LARGEST_K = 998
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ def optimal_beta(
     photons
         A map with parameters.
     k
-        Neighbors in parameter space whose world positions are looked at, 3 to 998.
+        Neighbors in parameter space whose world positions are looked at, 3 to as many as may push a photon.
     clip
         Accepted share of photons whose neighborhoods are cut, 0 to 0.5.
     progress
@@ -85,7 +85,7 @@ def optimal_beta(
     >>> bool(1.9 < pl.optimal_beta(photons) < 2.4)
     True
     """
-    k = check_count("k", k, 3, LARGEST_K)
+    k = check_count("k", k, 3, list_settings("relax")["neighbors"].limits[1])
     clip = check_number("clip", clip, 0.0, 0.5)
     if "parameters" not in photons.recorded:
         raise ArgumentError("optimal_beta needs parameters; set_parameters() or a script sets them")

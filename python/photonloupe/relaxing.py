@@ -12,7 +12,9 @@ from photonloupe import _engine
 from photonloupe.device import open_device
 from photonloupe.device_photons import DevicePhotons
 from photonloupe.progress import ProgressLike, follow_progress
-from photonloupe.relax_settings import AllRelaxKeywords, check_settings
+from photonloupe.relax_settings import complete_settings
+from photonloupe.setting_keywords import AllRelaxKeywords
+from photonloupe.settings import takes_settings
 
 LOG = logging.getLogger("photonloupe")
 
@@ -42,24 +44,19 @@ class Relaxation(Generic[PhotonsT]):
     500
     """
 
+    @takes_settings("relax")
     def __init__(
         self, photons: PhotonsT, *, progress: ProgressLike = None, **settings: Unpack[AllRelaxKeywords]
     ) -> None:
         self._source = photons
-        self._settings = check_settings(photons, progress, **settings)
+        self._settings = complete_settings(photons, progress, **settings)
         self._rows: list[dict[str, Any]] = []
         self._device = open_device(photons.device)
         self._scene = photons.find_surface() if self._settings["surface"] == "auto" else None
         native_scene = None if self._scene is None else self._scene._native
-        native_settings = {
-            **self._settings,
-            "limit": self._settings["limit"] or 0.0,
-            # The engine divides by the number of steps, even where none is made.
-            "steps": max(self._settings["steps"], 1),
-        }
         with follow_progress(progress) as callback:
             self._native = _engine.start_relaxation(
-                self._device._native, photons.upload(), native_scene, native_settings, callback
+                self._device._native, photons.upload(), native_scene, self._settings, callback
             )
         for note in self.notes:
             LOG.warning(note)

@@ -85,7 +85,7 @@ TEST(Session, absent_fields_keep_their_defaults) {
         studio::read_state(R"({"format": "photonloupe session", "version": 1, "loupe": {"k": 7}})", {});
     EXPECT_EQ(state.loupe.k, 7u);
     EXPECT_EQ(state.loupe.space, studio::LoupeState{}.space);
-    EXPECT_EQ(state.trace.photons, studio::TraceState{}.photons);
+    EXPECT_EQ(state.trace.count, studio::TraceState{}.count);
     EXPECT_EQ(state.selection, nullptr);
 }
 
