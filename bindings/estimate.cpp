@@ -9,8 +9,7 @@ namespace photonloupe::bindings {
 namespace {
 
 nb::ndarray<nb::numpy, float> estimate(OpenDevice& open, Photons& photons, Matrix<const double, 3> points,
-                                       Matrix<const float, 3> normals, const nb::dict& given,
-                                       nb::object progress) {
+                                       Matrix<const float, 3> normals, const nb::dict& given, nb::object progress) {
     const std::vector<glm::vec4> local = localize_points(photons.map, {points.data(), points.size()});
     std::vector<glm::vec4> directions(normals.shape(0));
     for (std::size_t i = 0; i < directions.size(); ++i)
@@ -54,7 +53,8 @@ CameraChoice read_camera(nb::handle given) {
 void bind_estimate(nb::module_& module) {
     module.def("estimate_irradiance", &estimate, nb::arg("device"), nb::arg("photons"), nb::arg("points"),
                nb::arg("normals"), nb::arg("settings"), nb::arg("progress").none() = nb::none(),
-               "Irradiance (n, 3) in W/m² at points with unit normals; settings as describe_settings(\"irradiance\") has them.");
+               "Irradiance (n, 3) in W/m² at points with unit normals; settings as describe_settings(\"irradiance\") "
+               "has them.");
     module.def("render_image", &render, nb::arg("device"), nb::arg("scene"), nb::arg("photons").none(),
                nb::arg("settings"), nb::arg("progress").none() = nb::none(),
                "Linear radiance (height, width, 3); settings as describe_settings(\"render\") has them, and camera.");

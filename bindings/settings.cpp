@@ -118,7 +118,9 @@ void bind_settings(nb::module_& module) {
         "All settings of a relaxation, what is automatic filled in but for beta.");
     module.def(
         "choose_k",
-        [](const std::optional<std::string>& emission) { return choose_k(EstimateSettings{}, parse_emission(emission)); },
+        [](const std::optional<std::string>& emission) {
+            return choose_k(EstimateSettings{}, parse_emission(emission));
+        },
         nb::arg("emission").none(), "How many photons an estimate gathers where nothing is said.");
 }
 

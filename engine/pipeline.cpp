@@ -258,12 +258,11 @@ void Workbench::build_view_trees(Photons& photons, const Progress& progress) {
 
 Image Workbench::render_voronoi(const Scene& scene, Photons& photons, const CameraChoice& looks,
                                 const RenderSettings& settings, const Progress& progress) {
-    const shared::CameraFrame camera =
-        frame_camera(scene, find_camera(scene, looks), settings.width, settings.height);
+    const shared::CameraFrame camera = frame_camera(scene, find_camera(scene, looks), settings.width, settings.height);
     const inspect::SurfaceView view = inspect::see_surfaces(m_device, scene, *find_buffers(scene), camera,
                                                             {settings.width, settings.height}, progress);
-    const inspect::CellImage cells = inspect::find_voronoi_cells(m_device, photons.map, find_tree(photons, progress),
-                                                                 view, {}, progress);
+    const inspect::CellImage cells =
+        inspect::find_voronoi_cells(m_device, photons.map, find_tree(photons, progress), view, {}, progress);
     return inspect::paint_cells(cells, inspect::list_encoded_colors(photons.map));
 }
 

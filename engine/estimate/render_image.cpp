@@ -229,8 +229,7 @@ std::vector<gpu::KernelSource> list_render_kernels(const Scene& scene, Store sto
 Image render_image(gpu::Device& device, const Scene& scene, const SceneBuffers& buffers, const RenderedMap* map,
                    const CameraChoice& looks, const RenderSettings& settings, const Progress& progress) {
     require_request(settings, map);
-    const shared::CameraFrame camera =
-        frame_camera(scene, find_camera(scene, looks), settings.width, settings.height);
+    const shared::CameraFrame camera = frame_camera(scene, find_camera(scene, looks), settings.width, settings.height);
     if (settings.mode == RenderMode::photons)
         return plot_photons(device, buffers, map->photons, camera, settings.width, settings.height, progress);
     Renderer renderer{device, scene, buffers, map, settings};

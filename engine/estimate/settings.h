@@ -60,8 +60,8 @@ void visit(Rows& row, EstimateSettings& s) {
               .doc = "how many photons an estimate gathers",
               .range = {1, MOST_NEIGHBORS},
               .empty = "auto",
-              .automatic = std::to_string(K_OF_SOBOL) + " for Sobol emission, " + std::to_string(K_OF_RANDOM) +
-                           " for random",
+              .automatic =
+                  std::to_string(K_OF_SOBOL) + " for Sobol emission, " + std::to_string(K_OF_RANDOM) + " for random",
               .usual = {4, 500},
               .is_logarithmic = true});
     row(s.kernel, {.name = "kernel",

@@ -24,10 +24,11 @@ void visit(Rows& row, LoupeSettings& s) {
               .range = {1, MOST_NEIGHBORS},
               .usual = {1, MOST_NEIGHBORS},
               .is_logarithmic = true});
-    row(s.space, {.name = "space",
-                  .doc = "nearest in the world (`world`), in parameter space (`parameter`), or in the world among those "
-                         "of a layer (`constrained`)",
-                  .choices = {"world", "parameter", "constrained"}});
+    row(s.space,
+        {.name = "space",
+         .doc = "nearest in the world (`world`), in parameter space (`parameter`), or in the world among those "
+                "of a layer (`constrained`)",
+         .choices = {"world", "parameter", "constrained"}});
     row(s.beta, {.name = "beta",
                  .doc = "β of the layer: photons within β times the distance to the k-th in parameter space",
                  .range = {0, 1e18},

@@ -21,7 +21,8 @@ std::vector<GatherKernel> name_measures(Descriptor descriptor) {
 
 std::vector<gpu::KernelSource> list_kernels(const Neighborhood& neighborhood, const Queries& queries,
                                             const RelaxSettings& settings) {
-    std::vector<gpu::KernelSource> kernels{name_radius_kernel(neighborhood, queries, {rank_for(*settings.constraint_neighbors)})};
+    std::vector<gpu::KernelSource> kernels{
+        name_radius_kernel(neighborhood, queries, {rank_for(*settings.constraint_neighbors)})};
     for (const GatherKernel& kernel : name_measures(settings.descriptor))
         kernels.push_back(name_gather_kernel(neighborhood, queries, kernel));
     return kernels;
@@ -38,7 +39,8 @@ Constraint measure_constraint(gpu::Device& device, const Neighborhood& neighborh
     const std::uint32_t rank = rank_for(*settings.constraint_neighbors);
     device.compile_ahead(list_kernels(neighborhood, queries, settings));
     find_radii(device, neighborhood, queries, {rank}, radii, STAGE, progress);
-    const shared::DescribeSettings push{make_gather_settings(neighborhood, rank), static_cast<float>((*settings.thresholds)[0]),
+    const shared::DescribeSettings push{make_gather_settings(neighborhood, rank),
+                                        static_cast<float>((*settings.thresholds)[0]),
                                         static_cast<float>((*settings.thresholds)[1]), 0, 0};
     for (GatherKernel& kernel : name_measures(settings.descriptor)) {
         for (const gpu::Binding& binding : {gpu::Binding{"radii", radii},

@@ -15,7 +15,8 @@ struct Constraint {
     gpu::Buffer member_radii; // x r², y weight at r, z one-sidedness, w axis ratio t
 };
 
-// Measures the descriptor for every photon of the neighborhood's tree, by complete settings. `radii` gets the radii found.
+// Measures the descriptor for every photon of the neighborhood's tree, by complete settings. `radii` gets the radii
+// found.
 Constraint measure_constraint(gpu::Device& device, const Neighborhood& neighborhood, const Queries& queries,
                               const RelaxSettings& settings, const gpu::Buffer& radii, const Progress& progress);
 

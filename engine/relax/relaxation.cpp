@@ -133,8 +133,8 @@ void Relaxation::constrain(const LayerTrees& trees, const Progress& progress) {
     }
     const ParameterTree& layered = *trees.layered;
     m_notes = layered.parameters->notes;
-    const gpu::Buffer reach2 = find_layer_reaches(m_device, *trees.by_parameters, layered.tree, k, find_beta(),
-                                                  progress);
+    const gpu::Buffer reach2 =
+        find_layer_reaches(m_device, *trees.by_parameters, layered.tree, k, find_beta(), progress);
     note_reaches(layered, reach2, "constraint");
     Neighborhood layers = look_in(layered, Measure::surface);
     layers.is_layered = true;
@@ -151,8 +151,7 @@ void Relaxation::constrain(const LayerTrees& trees, const Progress& progress) {
 void Relaxation::take_layers(const LayerTrees& trees, const Progress& progress) {
     if (m_settings.repel == Space::world)
         return;
-    m_reach2 =
-        find_layer_reaches(m_device, *trees.by_parameters, m_tree, m_settings.neighbors, find_beta(), progress);
+    m_reach2 = find_layer_reaches(m_device, *trees.by_parameters, m_tree, m_settings.neighbors, find_beta(), progress);
     if (m_notes.empty()) {
         m_notes = m_parameters->notes;
         note_reaches(*trees.layered, m_reach2, "repulsion");
@@ -165,7 +164,8 @@ void Relaxation::note_reaches(const ParameterTree& tree, const gpu::Buffer& reac
         return;
     std::ostringstream text;
     text << "the layers of the " << of << " reach over all of parameter space for " << std::round(100.0 * share)
-         << " % of the photons at beta " << find_beta() << ": they keep nothing apart, as in world space; take a smaller beta "
+         << " % of the photons at beta " << find_beta()
+         << ": they keep nothing apart, as in world space; take a smaller beta "
          << "or fewer neighbors";
     m_notes.push_back(text.str());
 }

@@ -45,7 +45,8 @@ struct LayerTrees {
 
 class Relaxation {
 public:
-    // Measures the constraint; settings are complete, β too where layers count. Without a surface's scene photons move in their tangent planes.
+    // Measures the constraint; settings are complete, β too where layers count. Without a surface's scene photons move
+    // in their tangent planes.
     Relaxation(gpu::Device& device, const PhotonMap& photons, const KdTree& tree, const LayerTrees& trees,
                const RelaxSettings& settings, RelaxSurface surface, const Progress& progress);
 

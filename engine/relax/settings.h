@@ -125,13 +125,12 @@ void visit(Rows& row, RelaxSettings& s) {
                                  .symbol = "k",
                                  .usual = {FEWEST_CONSTRAINT_NEIGHBORS, 400},
                                  .is_logarithmic = true});
-    row(s.thresholds,
-        {.name = "thresholds",
-         .doc = "value of the descriptor that leaves a photon free, and the one that fixes it across",
-         .range = {-1e30, 1e30},
-         .empty = "auto",
-         .automatic = "the descriptor's own",
-         .differs = true});
+    row(s.thresholds, {.name = "thresholds",
+                       .doc = "value of the descriptor that leaves a photon free, and the one that fixes it across",
+                       .range = {-1e30, 1e30},
+                       .empty = "auto",
+                       .automatic = "the descriptor's own",
+                       .differs = true});
     row(s.diffuse_flux, {.name = "diffuse_flux", .doc = "let fluxes even out too; the total is kept"});
     row(s.search, {.name = "search",
                    .doc = "radii of every step (`exact`), or those of the step before, corrected by the number of "

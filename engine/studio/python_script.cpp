@@ -93,8 +93,7 @@ std::string write_relax(const RelaxState& relax) {
         return "relaxed = photons\n";
     RelaxSettings used = relax.used;
     return "relaxation = pl.Relaxation(photons" + write_arguments(used) + ")\nfor _ in range(" +
-           std::to_string(relax.made) +
-           "):\n    relaxation.step()\nrelaxed = relaxation.photons\n";
+           std::to_string(relax.made) + "):\n    relaxation.step()\nrelaxed = relaxation.photons\n";
 }
 
 std::string write_render(const StudioState& state) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 
 #include <imgui.h>
@@ -14,7 +15,7 @@ namespace photonloupe::studio::ui {
 namespace {
 
 // Of the panel's width; what is automatic has a box beside it.
-constexpr float WIDTH = 0.28f, WIDTH_BESIDE_BOX = 0.2f;
+constexpr float WIDTH = 0.28f, WIDTH_BESIDE_BOX = 0.18f;
 constexpr int MOST_NUMBERS = 4;
 
 std::string find_label(const Setting& setting) {
@@ -41,11 +42,10 @@ bool edit_count(const Setting& setting, const std::string& label, SettingValue& 
     const std::uint64_t step = std::max<std::uint64_t>(1, count / 10);
     const ImGuiSliderFlags flags =
         ImGuiSliderFlags_AlwaysClamp | (about.is_logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
-    const bool changed =
-        about.usual.is_given()
-            ? ImGui::SliderScalar(label.c_str(), ImGuiDataType_U64, &count, &low, &high, "%llu", flags)
-            : ImGui::InputScalar(label.c_str(), ImGuiDataType_U64, &count, &step, nullptr, "%llu",
-                                 ImGuiInputTextFlags_EnterReturnsTrue);
+    const bool changed = about.usual.is_given()
+                             ? ImGui::SliderScalar(label.c_str(), ImGuiDataType_U64, &count, &low, &high, "%llu", flags)
+                             : ImGui::InputScalar(label.c_str(), ImGuiDataType_U64, &count, &step, nullptr, "%llu",
+                                                  ImGuiInputTextFlags_EnterReturnsTrue);
     value = static_cast<double>(count);
     return changed;
 }
@@ -59,11 +59,10 @@ bool edit_numbers(const Setting& setting, const std::string& label, std::vector<
     const auto low = static_cast<float>(about.usual.low), high = static_cast<float>(about.usual.high);
     const ImGuiSliderFlags flags =
         ImGuiSliderFlags_AlwaysClamp | (about.is_logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
-    const bool changed = about.usual.is_given()
-                             ? ImGui::SliderScalarN(label.c_str(), ImGuiDataType_Float, numbers, count, &low, &high,
-                                                    "%.3g", flags)
-                             : ImGui::InputScalarN(label.c_str(), ImGuiDataType_Float, numbers, count, nullptr, nullptr,
-                                                   "%.3g");
+    const bool changed =
+        about.usual.is_given()
+            ? ImGui::SliderScalarN(label.c_str(), ImGuiDataType_Float, numbers, count, &low, &high, "%.3g", flags)
+            : ImGui::InputScalarN(label.c_str(), ImGuiDataType_Float, numbers, count, nullptr, nullptr, "%.3g");
     for (int i = 0; i < count; ++i)
         if (numbers[i] != static_cast<float>(values[i]))
             values[i] = round_float(numbers[i]);
@@ -87,7 +86,7 @@ SettingValue find_shown(const Setting& setting, const Setting& completed) {
     const SettingValue held = completed.read(completed);
     if (!std::holds_alternative<std::monostate>(held))
         return held;
-    const double middle = std::clamp(1.0, setting.about.range.low, setting.about.range.high);
+    const double middle = std::floor(std::sqrt(setting.about.range.low * setting.about.range.high));
     if (setting.kind == SettingKind::numbers)
         return std::vector<double>(setting.width, middle);
     return middle;

@@ -19,8 +19,8 @@ namespace photonloupe::studio {
 using Ids = std::shared_ptr<const std::vector<std::uint32_t>>;
 
 struct TraceState : TraceSettings {
-    std::string scene; // path; empty: none
-    std::string map;   // path of a saved map that takes the place of tracing; empty: none
+    std::string scene;               // path; empty: none
+    std::string map;                 // path of a saved map that takes the place of tracing; empty: none
     TraceState() { count = 50'000; } // to be looked at soon
     bool operator==(const TraceState&) const = default;
 };

@@ -34,10 +34,11 @@ struct TraceSettings {
 
 template <class Rows>
 void visit(Rows& row, TraceSettings& s) {
-    row(s.count, {.name = "count",
-                  .doc = "least number of stored photons; they are emitted in whole blocks of 4,096 until it is reached",
-                  .range = {1, MOST_PHOTONS},
-                  .alias = "photons"});
+    row(s.count,
+        {.name = "count",
+         .doc = "least number of stored photons; they are emitted in whole blocks of 4,096 until it is reached",
+         .range = {1, MOST_PHOTONS},
+         .alias = "photons"});
     row(s.emitted, {.name = "emitted",
                     .doc = "number of photons to emit instead, whatever is stored",
                     .range = {1, MOST_EMITTED},

@@ -295,7 +295,7 @@ void Tracer::require_progress() const {
 
 double Tracer::find_fraction() const {
     return m_settings.emitted ? static_cast<double>(m_report.emitted) / static_cast<double>(*m_settings.emitted)
-                                  : static_cast<double>(m_photon_count) / static_cast<double>(m_settings.count);
+                              : static_cast<double>(m_photon_count) / static_cast<double>(m_settings.count);
 }
 
 // A workgroup ran out of loop turns: from now on each lane shoots one path with all of them.

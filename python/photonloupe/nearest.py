@@ -34,7 +34,7 @@ def find_neighbors(
     progress: ProgressLike = None,
 ) -> Found:
     """Check the query and run it; see `PhotonMap.neighbors`."""
-    k, space, beta = check_look(k, space, beta)
+    k, space, reach = check_look(k, space, beta)
     if space != "constrained" and (center is not None or ranges is not None):
         raise ArgumentError('center and ranges lock the layer of space="constrained"')
     if space != "world" and "parameters" not in photons.recorded:
@@ -42,14 +42,14 @@ def find_neighbors(
     ids, vectors = _read_query(photons, points, space)
     query: dict[str, Any] = {"space": space, "beta": 0.0, "center": -1, "low": None, "high": None}
     if space == "constrained":
-        query.update(_check_layer(photons, ids is not None, beta, center, ranges, progress))
+        query.update(_check_layer(photons, ids is not None, reach, center, ranges, progress))
     with follow_progress(progress) as callback:
         device = open_device(photons.device)._native
         found, distances = _engine.find_neighbors(device, photons.upload(), vectors, ids, k, query, callback)
     return np.asarray(found), np.asarray(distances)
 
 
-def check_look(k: Any, space: Any, beta: Any) -> tuple[int, str, Any]:
+def check_look(k: Any, space: Any, beta: Any) -> tuple[int, str, float | str]:
     """Check how many photons are looked at, and where; β is checked where it counts."""
     known = list_settings("loupe")
     return known["k"].check(k), known["space"].check(space), known["beta"].default if beta is None else beta

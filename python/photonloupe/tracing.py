@@ -32,7 +32,9 @@ def trace_photons(
     progress: ProgressLike = None,
     **settings: Unpack[TraceKeywords],
 ) -> PhotonMap:
-    """Trace photons until enough are stored: a larger map begins with the same paths, their flux divided by all emitted.
+    """Trace photons until enough are stored.
+
+    A larger map begins with the same paths, their flux divided by all emitted.
 
     Parameters
     ----------

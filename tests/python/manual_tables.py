@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes what the engine's tables give: run this file after changing a predefined call, a code, a command, a setting."""
+"""Writes what the engine's tables give: run this file after changing a call, a code, a command, a setting."""
 
 from __future__ import annotations
 
@@ -86,7 +86,9 @@ def write_keywords() -> str:
 
 def _write_type(name: str, base: str, settings: list[Setting]) -> str:
     rows = [f"    {one.name}: {_name_type(one)}\n" for one in settings]
-    return f'class {name}({base}, total=False):\n    """`engine/*/settings.h` says what each means."""\n\n{"".join(rows)}'
+    return (
+        f'class {name}({base}, total=False):\n    """`engine/*/settings.h` says what each means."""\n\n{"".join(rows)}'
+    )
 
 
 def _name_type(setting: Setting) -> str:

@@ -26,8 +26,8 @@ NEIGHBORS: dict[str, Any] = {"space": "world", "beta": 0.0, "center": -1, "low":
 @pytest.mark.parametrize(
     ("changed", "names"),
     [
-        ({"emission": "sobl"}, "emission must be one of sobol, random, not \"sobl\""),
-        ({"store": "ALL"}, "store must be one of caustic, indirect, all, not \"ALL\""),
+        ({"emission": "sobl"}, 'emission must be one of sobol, random, not "sobl"'),
+        ({"store": "ALL"}, 'store must be one of caustic, indirect, all, not "ALL"'),
     ],
 )
 def test_tracing_names_the_choices(ring: pl.Scene, changed: dict[str, Any], names: str) -> None:

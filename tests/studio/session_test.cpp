@@ -138,6 +138,23 @@ TEST(Session, refusals_name_the_field) {
     }
 }
 
+TEST(Session, first_version_is_read) {
+    const studio::StudioState state = studio::read_state(R"({"format": "photonloupe session", "version": 1,
+        "trace": {"photons": 7}, "image": {"k": 9, "samples": 2},
+        "relax": {"choices": {"steps": 4, "beta": 2, "has_auto_beta": true, "limit": 0, "thresholds": [0, 0]},
+                  "used": {"beta": 2, "has_auto_beta": false, "limit": 0.5, "thresholds": [1, 2]}}})",
+                                                         {});
+    EXPECT_EQ(state.trace.count, 7u);
+    EXPECT_EQ(state.image.render.estimate.k, 9u);
+    EXPECT_EQ(state.relax.choices.steps, 4u);
+    EXPECT_EQ(state.relax.choices.beta, std::nullopt);
+    EXPECT_EQ(state.relax.choices.limit, std::nullopt);
+    EXPECT_EQ(state.relax.choices.thresholds, std::nullopt);
+    EXPECT_EQ(state.relax.used.beta, 2.0);
+    EXPECT_EQ(state.relax.used.limit, 0.5);
+    EXPECT_EQ(state.relax.used.thresholds, (std::array{1.0, 2.0}));
+}
+
 TEST(Session, script_with_any_bytes_is_written_as_text) {
     studio::StudioState state;
     state.script.text = "// \xff\xfe";

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from photonloupe import _engine
-from photonloupe.checks import check_choice, check_count, check_vectors
+from photonloupe.checks import check_count, check_vectors
 from photonloupe.device import open_device
 from photonloupe.errors import ArgumentError
 from photonloupe.nearest import check_look, read_ranges
@@ -163,14 +163,14 @@ def loupe(
     """
     if not isinstance(photons, PhotonMap):
         raise ArgumentError(f"photons must be a PhotonMap, not {photons!r}")
-    k, space, beta = check_look(k, space, beta)
+    k, space, reach = check_look(k, space, beta)
     if space != "constrained" and (center is not None or ranges is not None):
         raise ArgumentError('center and ranges lock the layer of space="constrained"')
     if space != "world" and "parameters" not in photons.recorded:
         raise ArgumentError(f'space="{space}" needs parameters; set_parameters() or a script sets them')
     query = {"k": k, "space": space, "beta": 0.0}
     query.update(_check_place(photons, point, normal))
-    query.update(_check_layer(photons, query["photon"] is not None, space, beta, center, ranges, progress))
+    query.update(_check_layer(photons, query["photon"] is not None, space, reach, center, ranges, progress))
     line_count = check_count("paths", paths, 0, list_settings("loupe")["k"].limits[1])
     if line_count and not photons.can_have_paths:
         raise ArgumentError("this map has no paths and cannot record them; give them to from_arrays")
