@@ -89,6 +89,10 @@ void visit(Rows& row, RenderSettings& s) {
                 "photons on the surfaces seen",
          .choices = {"composite", "caustic", "direct", "photons", "false-color", "voronoi"}});
     visit(row, s.estimate);
+    row(s.max_bounces, {.name = "max_bounces",
+                        .doc = "how many mirrors and panes a look into the scene goes on after",
+                        .range = {0, MOST_BOUNCES},
+                        .usual = {0, MOST_BOUNCES}});
     row(s.seed, {.name = "seed", .doc = "of the samples within the pixel", .range = {0, LARGEST_SEED}});
 }
 

@@ -63,4 +63,5 @@ class RenderKeywords(TypedDict, total=False):
     mode: str | None
     k: int | str | None
     kernel: str | None
+    max_bounces: int | None
     seed: int | None
