@@ -110,6 +110,16 @@ class Setting:
         except ValueError:
             raise argparse.ArgumentTypeError(f"must be a whole number, not {text!r}") from None
 
+    def write(self, value: Any) -> str:
+        """Write a value as options have it, numbers shortened."""
+        if value is None:
+            return self.empty
+        if isinstance(value, bool):
+            return "yes" if value else "no"
+        if self.kind == "numbers":
+            return ",".join(f"{number:g}" for number in value)
+        return f"{value:g}" if self.kind == "number" else str(value)
+
     def tell_range(self) -> str:
         """Say what it may be, or nothing where its names say it."""
         if self.kind not in ("count", "number", "numbers"):
@@ -119,14 +129,8 @@ class Setting:
 
     def tell_default(self) -> str:
         """Say what it is where nothing is said."""
-        value = self.default
-        if value is None:
-            return f"{self.empty}: {self.automatic}" if self.automatic else self.empty
-        if isinstance(value, bool):
-            return "yes" if value else "no"
-        if isinstance(value, list):
-            return ", ".join(f"{number:g}" for number in value)
-        return str(value) if isinstance(value, str | int) else f"{value:g}"
+        text = self.write(self.default)
+        return f"{text}: {self.automatic}" if self.default is None and self.automatic else text
 
     def tell(self) -> str:
         """Say all of it in one line."""

@@ -148,12 +148,12 @@ def test_relax_says_where_photons_moved(ring_zarr: Path, tmp_path: Path, capsys:
 
 def test_relax_says_where_space_repeats(ring_zarr: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run("relax", ring_zarr, "-o", tmp_path / "a.zarr", "--steps", 1, "--period", "4,0,4") == 0
-    assert "space repeats after 4,0,4 m" in capsys.readouterr().out
+    assert "period 4,0,4" in capsys.readouterr().out
 
 
 def test_relax_says_which_beta_was_used(layered_zarr: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run("relax", layered_zarr, "-o", tmp_path / "a.zarr", "--steps", 1, "--beta", "4.25") == 0
-    assert "β 4.25" in capsys.readouterr().out
+    assert "beta 4.25," in capsys.readouterr().out
 
 
 def test_relax_reports_settings_as_json(ring_zarr: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+import textwrap
 from typing import Any
 
 import photonloupe as pl
@@ -17,8 +17,10 @@ from photonloupe.cli.common import (
     print_result,
 )
 from photonloupe.device import open_device
-from photonloupe.settings import add_setting_options, read_setting_options
+from photonloupe.settings import add_setting_options, list_settings, read_setting_options
 from photonloupe.storage import check_map_path
+
+WIDTH = 110  # of lines that say what was used
 
 SUMMARY = "relax the photons of a saved map, as far as their constraints allow"
 DESCRIPTION = (
@@ -35,30 +37,10 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add_device_option(parser)
 
 
-def _join(numbers: Sequence[float]) -> str:
-    return ",".join(f"{number:g}" for number in numbers)
-
-
 def _describe_settings(settings: dict[str, Any], surface: str, photons: int) -> list[str]:
     """Say in words what was used."""
-    first, last = settings["over_relaxation"]
-    free_at, fixed_at = settings["thresholds"]
-    constraint = "none"
-    if settings["descriptor"] != "none":
-        constraint = (
-            f"{settings['constraint']}, {settings['descriptor']} of {settings['constraint_neighbors']} neighbors, "
-            f"free at {free_at:.3g}, fixed at {fixed_at:.3g}"
-        )
-    beta = f"β {settings['beta']:.4g}; " if settings["beta"] else ""
-    period = f"; space repeats after {_join(settings['period'])} m" if any(settings["period"]) else ""
-    limit = f"limit {settings['limit']:g}" if settings["limit"] else "no limit"
-    flux = "; fluxes diffuse" if settings["diffuse_flux"] else ""
-    return [
-        f"{photons:,} photons, {settings['steps']} steps; pushed by {settings['neighbors']} neighbors "
-        f"({settings['repel']}), over-relaxation {first:g} to {last:g}, {limit}, {settings['search']} search{flux}",
-        f"constraint: {constraint}",
-        f"{beta}moved on: {surface}{period}",
-    ]
+    told = [f"{name} {setting.write(settings[name])}" for name, setting in list_settings("relax").items()]
+    return [f"{photons:,} photons, moved on: {surface}", *textwrap.wrap(", ".join(told), WIDTH)]
 
 
 def _format_steps(rows: list[dict[str, Any]]) -> list[str]:
