@@ -110,6 +110,7 @@ private:
 // A camera by its name, or by its place and axes.
 CameraChoice read_camera(nb::handle given);
 
+void bind_settings(nb::module_& module);
 void bind_device(nb::module_& module);
 void bind_scene(nb::module_& module);
 void bind_trace(nb::module_& module);

@@ -2,11 +2,11 @@
 // Binds engine/inspect: columns, histograms, the loupe, spectra.
 #include "binding.h"
 
-#include "choices.h"
 #include "inspect/columns/columns.h"
 #include "inspect/histogram.h"
 #include "inspect/loupe.h"
 #include "inspect/measure_spectrum.h"
+#include "settings.h"
 
 namespace photonloupe::bindings {
 namespace {
@@ -55,10 +55,7 @@ nb::object take_vectors(const std::vector<glm::vec3>& vectors, const std::array<
 }
 
 LoupeQuery read_query(const nb::dict& given) {
-    LoupeQuery query;
-    query.space = parse_search_space(nb::cast<std::string>(given["space"]));
-    query.k = nb::cast<std::uint32_t>(given["k"]);
-    query.beta = nb::cast<float>(given["beta"]);
+    LoupeQuery query{read_settings<LoupeSettings>(given)};
     query.photon = nb::cast<std::optional<std::uint32_t>>(given["photon"]);
     query.pinned = nb::cast<std::optional<std::uint32_t>>(given["center"]);
     if (!given["point"].is_none())

@@ -13,6 +13,7 @@ NB_MODULE(_engine, module) {
     nb::exception<DeviceError>(module, "DeviceError", base);
     nb::exception<MemoryError>(module, "DeviceMemoryError", base);
     nb::exception<Cancelled>(module, "Cancelled", base);
+    bindings::bind_settings(module);
     bindings::bind_device(module);
     bindings::bind_scene(module);
     bindings::bind_photons(module);

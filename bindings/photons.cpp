@@ -2,9 +2,10 @@
 // Binds engine/photons: maps made, shared and parted, their parameters, the tree, neighbours.
 #include "binding.h"
 
-#include "choices.h"
 #include "inspect/path_view.h"
+#include "inspect/settings.h"
 #include "photons/map_columns.h"
+#include "settings.h"
 
 namespace photonloupe::bindings {
 namespace {
@@ -108,7 +109,9 @@ std::shared_ptr<Photons> make_photons(OpenDevice& open, const nb::dict& columns,
     if (columns.contains("colors"))
         set_colors(open.device, photons->map, take_floats(columns, "colors"));
     photons->state = read_state(columns);
-    photons->store = parse_store(store);
+    TraceSettings origin;
+    write_setting(find_setting(list_settings(origin), "store"), store);
+    photons->store = origin.store;
     photons->report.emitted = emitted;
     return photons;
 }
@@ -124,9 +127,10 @@ nb::tuple find_near(OpenDevice& open, Photons& photons, std::optional<Points> po
         return given[name].is_none() ? std::vector<float>{} : nb::cast<std::vector<float>>(given[name]);
     };
     const std::vector<float> low = take("low"), high = take("high");
-    NearestQuery query{.space = parse_search_space(nb::cast<std::string>(given["space"])),
+    const auto settings = read_settings<inspect::LoupeSettings>(given);
+    NearestQuery query{.space = settings.space,
                        .k = k,
-                       .beta = nb::cast<float>(given["beta"]),
+                       .beta = static_cast<float>(settings.beta),
                        .center = nb::cast<std::optional<std::uint32_t>>(given["center"]),
                        .low = low,
                        .high = high};

@@ -2,8 +2,8 @@
 // Binds engine/relax: a relaxation that is stepped, and what came of it as arrays.
 #include "binding.h"
 
-#include "choices.h"
 #include "relax/relaxation.h"
+#include "settings.h"
 
 namespace photonloupe::bindings {
 namespace {
@@ -14,30 +14,9 @@ struct OpenRelaxation {
     Relaxation relaxation;
 };
 
-RelaxSettings read_settings(const nb::dict& given) {
-    RelaxSettings settings;
-    settings.steps = nb::cast<std::uint32_t>(given["steps"]);
-    settings.neighbors = nb::cast<std::uint32_t>(given["neighbors"]);
-    settings.over_relaxation = nb::cast<std::array<float, 2>>(given["over_relaxation"]);
-    settings.limit = nb::cast<float>(given["limit"]);
-    settings.repel = parse_space(nb::cast<std::string>(given["repel"]));
-    settings.beta = nb::cast<float>(given["beta"]);
-    settings.search = parse_search(nb::cast<std::string>(given["search"]));
-    settings.diffuse_flux = nb::cast<bool>(given["diffuse_flux"]);
-    settings.period = nb::cast<std::array<float, 3>>(given["period"]);
-    settings.constraint.descriptor = parse_descriptor(nb::cast<std::string>(given["descriptor"]));
-    settings.constraint.space = parse_space(nb::cast<std::string>(given["constraint"]));
-    settings.constraint.neighbors = nb::cast<std::uint32_t>(given["constraint_neighbors"]);
-    settings.constraint.beta = settings.beta;
-    const auto thresholds = nb::cast<std::array<float, 2>>(given["thresholds"]);
-    settings.constraint.free_at = thresholds[0];
-    settings.constraint.fixed_at = thresholds[1];
-    return settings;
-}
-
 std::shared_ptr<OpenRelaxation> start(OpenDevice& open, std::shared_ptr<Photons> photons, nb::object scene,
                                       const nb::dict& given, nb::object progress) {
-    const RelaxSettings settings = read_settings(given);
+    const auto settings = read_settings<RelaxSettings>(given);
     const Scene* surface = scene.is_none() ? nullptr : nb::cast<const Scene*>(scene);
     return PythonProgress(std::move(progress)).run([&](const Progress& asked) {
         return std::make_shared<OpenRelaxation>(
@@ -63,7 +42,7 @@ nb::dict step(OpenRelaxation& open, nb::object progress) {
 }
 
 nb::tuple relax(OpenDevice& open, Photons& photons, nb::object scene, const nb::dict& given, nb::object progress) {
-    const RelaxSettings settings = read_settings(given);
+    const auto settings = read_settings<RelaxSettings>(given);
     const Scene* surface = scene.is_none() ? nullptr : nb::cast<const Scene*>(scene);
     const RelaxedRun run = PythonProgress(std::move(progress)).run([&](const Progress& asked) {
         return open.workbench.relax_photons(photons, surface, settings, asked);
@@ -118,8 +97,7 @@ void bind_relax(nb::module_& module) {
                "start_relaxation.");
     module.def("start_relaxation", &start, nb::arg("device"), nb::arg("photons"), nb::arg("scene").none(),
                nb::arg("settings"), nb::arg("progress").none() = nb::none(), nb::keep_alive<0, 1>(),
-               "Measure the constraint and stand ready; settings: steps, neighbors, over_relaxation, limit, repel, "
-               "beta, search, diffuse_flux, period, descriptor, constraint, constraint_neighbors, thresholds.");
+               "Measure the constraint and stand ready; settings as describe_settings(\"relax\") has them.");
 }
 
 } // namespace photonloupe::bindings

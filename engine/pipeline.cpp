@@ -248,19 +248,21 @@ std::shared_ptr<Photons> Workbench::take_relaxed(const Photons& source, RelaxedC
     return photons;
 }
 
-Relaxation Workbench::start_relaxation(Photons& photons, const Scene* scene, const RelaxSettings& settings,
+Relaxation Workbench::start_relaxation(Photons& photons, const Scene* scene, const RelaxSettings& given,
                                        const Progress& progress) {
-    const bool seeks_constraint =
-        settings.constraint.descriptor != Descriptor::none && settings.constraint.space == Space::parameter;
+    const RelaxSettings settings = complete_settings(given, std::nullopt, photons.map.parameters.has_value());
     RelaxTrees trees{find_tree(photons, progress), nullptr, nullptr};
-    if (settings.repel == Space::parameter || seeks_constraint) {
-        const LayerReach reach = seeks_constraint ? LayerReach{settings.constraint.neighbors, settings.constraint.beta}
-                                                  : LayerReach{settings.neighbors, settings.beta};
+    if (settings.uses_layers()) {
+        if (!settings.beta)
+            throw Error("relax: beta is not known yet; measure the photons' isotropy, or give a number");
+        const bool seeks_constraint = settings.constrains() && settings.constraint == Space::parameter;
+        const LayerReach reach{seeks_constraint ? *settings.constraint_neighbors : settings.neighbors,
+                               static_cast<float>(*settings.beta)};
         trees.by_parameters = find_parameter_tree(photons, progress);
         trees.layered = find_layered_tree(photons, progress, reach);
     }
     RelaxSurface surface;
-    if (scene)
+    if (scene && settings.surface == SurfaceChoice::automatic)
         surface = {find_buffers(*scene), scene->origin};
     return Relaxation(m_device, photons.map, trees, settings, surface, progress);
 }
@@ -270,7 +272,7 @@ RelaxedRun Workbench::relax_photons(Photons& photons, const Scene* scene, const 
     const std::shared_ptr<const RelaxedRun> relaxed = m_relaxed.find(make_key(photons, scene, settings), [&] {
         Relaxation relaxation = start_relaxation(photons, scene, settings, progress);
         RelaxedRun run;
-        while (relaxation.step_count() < settings.steps)
+        while (relaxation.step_count() < relaxation.settings().steps)
             run.steps.push_back(relaxation.step(progress));
         run.notes = relaxation.notes();
         run.off_surface_count = relaxation.count_off_surface();
@@ -286,7 +288,7 @@ RelaxedRun Workbench::relax_photons(Photons& photons, const Scene* scene, const 
 gpu::Buffer Workbench::estimate_irradiance(Photons& photons, std::span<const glm::vec4> points,
                                            std::span<const glm::vec4> normals, const EstimateSettings& settings,
                                            const Progress& progress) {
-    require_k(settings.k);
+    require_k(choose_k(settings));
     return m_irradiance
         .find(make_key(photons, points, normals, settings),
               [&] {
@@ -296,21 +298,20 @@ gpu::Buffer Workbench::estimate_irradiance(Photons& photons, std::span<const glm
         ->share();
 }
 
-Image Workbench::render_voronoi(const Scene& scene, Photons& photons, const RenderSettings& settings,
-                                const Progress& progress) {
-    const shared::CameraFrame camera =
-        frame_camera(scene, find_camera(scene, settings.camera), settings.width, settings.height);
+Image Workbench::render_voronoi(const Scene& scene, Photons& photons, const CameraChoice& looks,
+                                const RenderSettings& settings, const Progress& progress) {
+    const shared::CameraFrame camera = frame_camera(scene, find_camera(scene, looks), settings.width, settings.height);
     const inspect::SurfaceView view = inspect::see_surfaces(m_device, scene, *find_buffers(scene), camera,
                                                             {settings.width, settings.height}, progress);
-    const inspect::CellImage cells = inspect::find_voronoi_cells(m_device, photons.map, *find_tree(photons, progress),
-                                                                 view, {settings.estimate.flatness}, progress);
+    const inspect::CellImage cells =
+        inspect::find_voronoi_cells(m_device, photons.map, *find_tree(photons, progress), view, {}, progress);
     return inspect::paint_cells(cells, inspect::list_encoded_colors(photons.map));
 }
 
-Image Workbench::render(const Scene& scene, Photons* photons, const RenderSettings& settings,
-                        const Progress& progress) {
-    return *m_image.find(make_key(scene, photons, settings),
-                         [&] { return render_anew(scene, photons, settings, progress); });
+Image Workbench::render(const Scene& scene, Photons* photons, const CameraChoice& camera,
+                        const RenderSettings& settings, const Progress& progress) {
+    return *m_image.find(make_key(scene, photons, camera, settings),
+                         [&] { return render_anew(scene, photons, camera, settings, progress); });
 }
 
 void Workbench::forget() {
@@ -321,12 +322,12 @@ void Workbench::forget() {
     m_image.forget();
 }
 
-Image Workbench::render_anew(const Scene& scene, Photons* photons, const RenderSettings& settings,
-                             const Progress& progress) {
+Image Workbench::render_anew(const Scene& scene, Photons* photons, const CameraChoice& camera,
+                             const RenderSettings& settings, const Progress& progress) {
     if (!photons)
-        return render_image(m_device, scene, *find_buffers(scene), nullptr, settings, progress);
+        return render_image(m_device, scene, *find_buffers(scene), nullptr, camera, settings, progress);
     if (settings.mode == RenderMode::voronoi)
-        return render_voronoi(scene, *photons, settings, progress);
+        return render_voronoi(scene, *photons, camera, settings, progress);
     const bool needs_tree = settings.mode != RenderMode::photons;
     m_device.compile_ahead(list_render_kernels(scene, photons->store, settings));
     if (needs_tree && !photons->trees.positions)
@@ -334,7 +335,7 @@ Image Workbench::render_anew(const Scene& scene, Photons* photons, const RenderS
     const std::shared_ptr<const KdTree> tree =
         needs_tree ? find_tree(*photons, progress) : std::make_shared<const KdTree>();
     const RenderedMap map{photons->map, *tree, photons->store};
-    return render_image(m_device, scene, *find_buffers(scene), &map, settings, progress);
+    return render_image(m_device, scene, *find_buffers(scene), &map, camera, settings, progress);
 }
 
 } // namespace photonloupe

@@ -13,19 +13,13 @@
 #include "known_photons.h"
 #include "photons/find_neighbors.h"
 #include "photons/layer_scale.h"
+#include "photons/search_space.h"
 #include "relax/isotropy.h"
 #include "relax/relaxation.h"
 #include "script/run/run_script.h"
 #include "trace/trace_photons.h"
 
 namespace photonloupe {
-
-// Whom a query finds.
-enum class SearchSpace {
-    world,       // all photons, by distance in metres
-    parameter,   // those with parameters, by distance in parameter space
-    constrained, // those of a layer, by distance in metres
-};
 
 // The k nearest photons of photons, which do not find themselves, or else of places.
 struct NearestQuery {
@@ -89,7 +83,8 @@ public:
     RelaxedRun relax_photons(Photons& photons, const Scene* scene, const RelaxSettings& settings,
                              const Progress& progress);
 
-    // Measures the constraint and stands ready for the first step; `scene` may be null. The photons must outlive it.
+    // Measures the constraint and stands ready for the first step; `scene` may be null. What is automatic is chosen, as
+    // of photons of unknown emission, but β is known where layers count. The photons must outlive it.
     Relaxation start_relaxation(Photons& photons, const Scene* scene, const RelaxSettings& settings,
                                 const Progress& progress);
 
@@ -101,7 +96,8 @@ public:
                                     const Progress& progress);
 
     // `photons` may be null for direct light alone.
-    Image render(const Scene& scene, Photons* photons, const RenderSettings& settings, const Progress& progress);
+    Image render(const Scene& scene, Photons* photons, const CameraChoice& camera, const RenderSettings& settings,
+                 const Progress& progress);
 
     // The scene on the device, kept until another one is asked for.
     std::shared_ptr<const SceneBuffers> find_buffers(const Scene& scene);
@@ -116,13 +112,14 @@ private:
     // Squared r_q of queries with rows; inf where fewer than k have parameters.
     std::vector<float> find_radii2_of(Photons& photons, const NeighborQueries& queries, std::uint32_t k,
                                       const Progress& progress);
-    Image render_voronoi(const Scene& scene, Photons& photons, const RenderSettings& settings,
-                         const Progress& progress);
+    Image render_voronoi(const Scene& scene, Photons& photons, const CameraChoice& looks,
+                         const RenderSettings& settings, const Progress& progress);
 
     Photons trace_anew(const Scene& scene, const TraceSettings& settings, const Progress& progress);
     script::ScriptRun run_anew(Photons& photons, const script::CompiledScript& script,
                                const script::RunSettings& settings, bool keeps, const Progress& progress);
-    Image render_anew(const Scene& scene, Photons* photons, const RenderSettings& settings, const Progress& progress);
+    Image render_anew(const Scene& scene, Photons* photons, const CameraChoice& camera, const RenderSettings& settings,
+                      const Progress& progress);
 
     gpu::Device& m_device;
     Memo<SceneBuffers> m_scene_buffers{Lifetime::until_next};

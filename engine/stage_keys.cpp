@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes settings out, one after the other.
+// Writes inputs out, one after the other.
 #include "stage_keys.h"
 
 #include "core/hash.h"
+#include "core/settings.h"
 
 namespace photonloupe {
 namespace {
-
-template <class Choice>
-int number(Choice choice) {
-    return static_cast<int>(choice);
-}
 
 template <class Values>
 std::string write_all(const Values& values) {
@@ -19,6 +15,11 @@ std::string write_all(const Values& values) {
     for (const auto& value : values)
         text << value << ' ';
     return text.str();
+}
+
+template <class Settings>
+std::string write_settings(Settings settings) {
+    return write_key(list_settings(settings));
 }
 
 std::string hash_points(std::span<const glm::vec4> points) {
@@ -34,8 +35,7 @@ MemoKey& add_photons(MemoKey& key, const Photons& photons) {
 } // namespace
 
 MemoKey make_key(const Scene& scene, const TraceSettings& settings) {
-    return MemoKey(scene.hash, settings.count, settings.emitted, settings.seed, number(settings.emission),
-                   number(settings.store), settings.max_bounces, settings.paths);
+    return MemoKey(scene.hash, write_settings(settings), settings.paths);
 }
 
 MemoKey make_key(const Photons& photons, const script::CompiledScript& script, const script::RunSettings& settings,
@@ -49,30 +49,25 @@ MemoKey make_key(const Photons& photons, const script::CompiledScript& script, c
 }
 
 MemoKey make_key(const Photons& photons, const Scene* surface, const RelaxSettings& settings) {
-    const ConstraintSettings& constraint = settings.constraint;
-    MemoKey key(surface ? surface->hash : "", settings.steps, settings.neighbors, write_all(settings.over_relaxation),
-                settings.limit, number(settings.repel), settings.beta, number(settings.search), settings.diffuse_flux,
-                write_all(settings.period), number(constraint.descriptor), number(constraint.space),
-                constraint.neighbors, constraint.beta, constraint.free_at, constraint.fixed_at);
+    MemoKey key(surface ? surface->hash : "", write_settings(settings));
     return add_photons(key, photons);
 }
 
 MemoKey make_key(const Photons& photons, std::span<const glm::vec4> points, std::span<const glm::vec4> normals,
                  const EstimateSettings& settings) {
-    MemoKey key(hash_points(points), hash_points(normals), settings.k, number(settings.kernel), settings.flatness);
+    MemoKey key(hash_points(points), hash_points(normals), write_settings(settings));
     return key.add(photons.identity);
 }
 
-MemoKey make_key(const Scene& scene, const Photons* photons, const RenderSettings& settings) {
+MemoKey make_key(const Scene& scene, const Photons* photons, const CameraChoice& choice,
+                 const RenderSettings& settings) {
     std::string placed;
-    if (const std::optional<Camera>& camera = settings.camera.placed) {
+    if (const std::optional<Camera>& camera = choice.placed) {
         for (const auto& vector : {camera->position, camera->right, camera->up, camera->backward})
             placed += write_all(vector);
         placed += write_all(std::array{camera->yfov, camera->aspect});
     }
-    MemoKey key(scene.hash, settings.camera.name, placed, settings.width, settings.height, settings.samples,
-                number(settings.mode), settings.estimate.k, number(settings.estimate.kernel),
-                settings.estimate.flatness, settings.seed, settings.max_bounces);
+    MemoKey key(scene.hash, choice.name, placed, write_settings(settings));
     return photons ? add_photons(key, *photons) : key;
 }
 

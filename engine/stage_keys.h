@@ -16,6 +16,7 @@ MemoKey make_key(const Photons& photons, const script::CompiledScript& script, c
 MemoKey make_key(const Photons& photons, const Scene* surface, const RelaxSettings& settings);
 MemoKey make_key(const Photons& photons, std::span<const glm::vec4> points, std::span<const glm::vec4> normals,
                  const EstimateSettings& settings);
-MemoKey make_key(const Scene& scene, const Photons* photons, const RenderSettings& settings);
+MemoKey make_key(const Scene& scene, const Photons* photons, const CameraChoice& camera,
+                 const RenderSettings& settings);
 
 } // namespace photonloupe

@@ -9,9 +9,8 @@ namespace {
 
 constexpr const char* STAGE = "estimate irradiance";
 
-Neighborhood look_at_surfaces(const KdTree& tree, const EstimateSettings& settings, bool has_one_normal) {
+Neighborhood look_at_surfaces(const KdTree& tree, bool has_one_normal) {
     Neighborhood neighborhood{tree, Measure::surface};
-    neighborhood.flatness = settings.flatness;
     neighborhood.has_one_normal = has_one_normal;
     return neighborhood;
 }
@@ -19,7 +18,7 @@ Neighborhood look_at_surfaces(const KdTree& tree, const EstimateSettings& settin
 // The photon behind the k-th gives the radius; of the disc the k-th itself.
 RadiusSettings choose_radius(const EstimateSettings& settings) {
     const bool is_disc = settings.kernel == DensityKernel::disc;
-    RadiusSettings radius{is_disc ? settings.k : settings.k + 1};
+    RadiusSettings radius{choose_k(settings) + (is_disc ? 0 : 1)};
     radius.cuts_ties = true;
     radius.includes_last = is_disc;
     return radius;
@@ -39,7 +38,7 @@ struct Estimate {
     const EstimateSettings& settings;
     const gpu::Buffer& irradiance;
     const Progress& progress;
-    Neighborhood neighborhood = look_at_surfaces(tree, settings, find_one_normal(tree));
+    Neighborhood neighborhood = look_at_surfaces(tree, find_one_normal(tree));
 
     GatherKernel bind_kernel(const gpu::Buffer& radii, const gpu::Buffer& result_rows) const {
         GatherKernel kernel = name_estimate(settings);
@@ -89,7 +88,7 @@ gpu::Buffer take_rows(gpu::Device& device, const gpu::Buffer& buffer, std::uint6
 std::vector<gpu::KernelSource> list_estimate_kernels(const EstimateSettings& settings, bool has_one_normal) {
     const KdTree tree;
     const gpu::Buffer points;
-    const Neighborhood neighborhood = look_at_surfaces(tree, settings, has_one_normal);
+    const Neighborhood neighborhood = look_at_surfaces(tree, has_one_normal);
     const Queries queries{0, &points, &points};
     return {name_radius_kernel(neighborhood, queries, choose_radius(settings)),
             name_gather_kernel(neighborhood, queries, name_estimate(settings))};
@@ -98,7 +97,7 @@ std::vector<gpu::KernelSource> list_estimate_kernels(const EstimateSettings& set
 gpu::Buffer estimate_irradiance(gpu::Device& device, const gpu::Buffer& power, const KdTree& tree,
                                 const PointSet& points, const gpu::Buffer& result_rows,
                                 const EstimateSettings& settings, const Progress& progress) {
-    require_k(settings.k);
+    require_k(choose_k(settings));
     gpu::Buffer irradiance(device, points.count * sizeof(glm::vec4), "irradiance");
     if (tree.count == 0) {
         gpu::Commands commands(device, STAGE);

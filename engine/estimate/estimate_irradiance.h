@@ -4,22 +4,10 @@
 
 #include <span>
 
+#include "estimate/settings.h"
 #include "photons/gather.h"
 
 namespace photonloupe {
-
-enum class DensityKernel : std::uint32_t {
-    epanechnikov = shared::KERNEL_EPANECHNIKOV,
-    disc = shared::KERNEL_DISC,
-    cone = shared::KERNEL_CONE,
-    gaussian = shared::KERNEL_GAUSSIAN,
-};
-
-struct EstimateSettings {
-    std::uint32_t k = 50;
-    DensityKernel kernel = DensityKernel::epanechnikov;
-    float flatness = SURFACE_FLATNESS; // 0: no test
-};
 
 // Points on the device: xyz relative to the map's origin, with unit normals; a zero normal: no query. Those that follow
 // each other should look at the same photons.

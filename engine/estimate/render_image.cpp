@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 
+#include "core/settings.h"
 #include "estimate/camera_frame.h"
 #include "estimate/plot_photons.h"
 #include "gpu/commands.h"
@@ -16,7 +17,6 @@ namespace {
 
 // Diffuse hits one sample may have: behind glass the reflected and the transmitted path are both followed.
 constexpr std::uint32_t DIELECTRIC_SLOTS = 4;
-constexpr std::uint32_t LARGEST_SAMPLE_COUNT = 4096;
 // Slots of one chunk: a software device follows their rays in a tenth of a second, which Ctrl-C waits for.
 constexpr std::uint64_t CHUNK_SLOTS = 1ull << 17;
 
@@ -179,11 +179,8 @@ Image Renderer::run(const Progress& progress) {
     return image;
 }
 
-void require_settings(const RenderSettings& settings, const RenderedMap* map) {
-    check_image_size(settings.width, settings.height, "render");
-    if (settings.samples < 1 || settings.samples > LARGEST_SAMPLE_COUNT)
-        throw Error("render: samples is " + std::to_string(settings.samples) + "; it must be 1 to " +
-                    std::to_string(LARGEST_SAMPLE_COUNT));
+void require_request(const RenderSettings& settings, const RenderedMap* map) {
+    require_settings("render", settings);
     if (std::uint64_t{settings.width} * settings.height * settings.samples > UINT32_MAX)
         throw Error("render: width × height × samples exceeds 2^32; render fewer samples, or the image in parts");
     if (!map && settings.mode != RenderMode::direct)
@@ -230,10 +227,9 @@ std::vector<gpu::KernelSource> list_render_kernels(const Scene& scene, Store sto
 }
 
 Image render_image(gpu::Device& device, const Scene& scene, const SceneBuffers& buffers, const RenderedMap* map,
-                   const RenderSettings& settings, const Progress& progress) {
-    require_settings(settings, map);
-    const shared::CameraFrame camera =
-        frame_camera(scene, find_camera(scene, settings.camera), settings.width, settings.height);
+                   const CameraChoice& looks, const RenderSettings& settings, const Progress& progress) {
+    require_request(settings, map);
+    const shared::CameraFrame camera = frame_camera(scene, find_camera(scene, looks), settings.width, settings.height);
     if (settings.mode == RenderMode::photons)
         return plot_photons(device, buffers, map->photons, camera, settings.width, settings.height, progress);
     Renderer renderer{device, scene, buffers, map, settings};

@@ -79,7 +79,7 @@ std::optional<std::uint32_t> Look::find_center() const {
 }
 
 Neighbors Look::find_found(std::uint32_t center) const {
-    NearestQuery asked{query.space, {}, place, {}, query.k, query.beta};
+    NearestQuery asked{query.space, {}, place, {}, query.k, static_cast<float>(query.beta)};
     const bool is_locked = query.space == SearchSpace::constrained && (query.pinned || !query.low.empty());
     if (query.space == SearchSpace::parameter || (query.photon && !is_locked))
         asked.ids = std::span(&center, 1);

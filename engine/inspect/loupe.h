@@ -8,18 +8,16 @@
 #include <utility>
 #include <vector>
 
+#include "inspect/settings.h"
 #include "inspect/spread.h"
 #include "pipeline.h"
 
 namespace photonloupe::inspect {
 
-struct LoupeQuery {
-    std::array<double, 3> point{};          // world, metres; where `photon` is empty
-    std::optional<glm::vec3> normal;        // of the surface at the point: the center lies on its side
-    std::optional<std::uint32_t> photon;    // instead of a point: around this photon, itself left out
-    std::uint32_t k = 250;                  // 1–1000
-    SearchSpace space = SearchSpace::world; // of parameters: around the center
-    float beta = 3.0f;                      // of the layer
+struct LoupeQuery : LoupeSettings {
+    std::array<double, 3> point{};       // world, metres; where `photon` is empty
+    std::optional<glm::vec3> normal;     // of the surface at the point: the center lies on its side
+    std::optional<std::uint32_t> photon; // instead of a point: around this photon, itself left out
     // What locks the layer while the point moves: a pinned photon, or ranges of all parameters. Neither: the layer is
     // the center's.
     std::optional<std::uint32_t> pinned;

@@ -151,8 +151,8 @@ void set_batches(std::span<std::byte> push, std::uint32_t batches) {
 } // namespace
 
 void require_k(std::uint32_t k) {
-    if (k < 1 || k > LARGEST_K)
-        throw Error("k is " + std::to_string(k) + "; it must be 1 to " + std::to_string(LARGEST_K));
+    if (k < 1 || k > MOST_NEIGHBORS)
+        throw Error("k is " + std::to_string(k) + "; it must be 1 to " + std::to_string(MOST_NEIGHBORS));
 }
 
 shared::GatherSettings make_gather_settings(const Neighborhood& neighborhood, std::uint32_t rank) {

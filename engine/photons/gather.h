@@ -3,13 +3,12 @@
 // one, each going on where the dispatch before stopped until it is done.
 #pragma once
 
+#include "photons/limits.h"
 #include "photons/neighborhood.h"
 
 namespace photonloupe {
 
-inline constexpr std::uint32_t LARGEST_K = 1000;
-
-// Throws Error unless k is 1 to LARGEST_K.
+// Throws Error unless k is 1 to MOST_NEIGHBORS.
 void require_k(std::uint32_t k);
 
 // Of photons that ask for `neighbors` others: they count themselves, and the next one gives the radius.

@@ -20,8 +20,9 @@ std::vector<GatherKernel> name_measures(Descriptor descriptor) {
 }
 
 std::vector<gpu::KernelSource> list_kernels(const Neighborhood& neighborhood, const Queries& queries,
-                                            const ConstraintSettings& settings) {
-    std::vector<gpu::KernelSource> kernels{name_radius_kernel(neighborhood, queries, {rank_for(settings.neighbors)})};
+                                            const RelaxSettings& settings) {
+    std::vector<gpu::KernelSource> kernels{
+        name_radius_kernel(neighborhood, queries, {rank_for(*settings.constraint_neighbors)})};
     for (const GatherKernel& kernel : name_measures(settings.descriptor))
         kernels.push_back(name_gather_kernel(neighborhood, queries, kernel));
     return kernels;
@@ -30,16 +31,17 @@ std::vector<gpu::KernelSource> list_kernels(const Neighborhood& neighborhood, co
 } // namespace
 
 Constraint measure_constraint(gpu::Device& device, const Neighborhood& neighborhood, const Queries& queries,
-                              const ConstraintSettings& settings, const gpu::Buffer& radii, const Progress& progress) {
+                              const RelaxSettings& settings, const gpu::Buffer& radii, const Progress& progress) {
     const std::uint64_t bytes = queries.count * sizeof(glm::vec4);
     Constraint constraint{gpu::Buffer(device, bytes, "constraint basis"),
                           gpu::Buffer(device, bytes, "constraint basis"), gpu::Buffer(device, bytes, "gradients"),
                           gpu::Buffer(device, bytes, "constraint radii")};
-    const std::uint32_t rank = rank_for(settings.neighbors);
+    const std::uint32_t rank = rank_for(*settings.constraint_neighbors);
     device.compile_ahead(list_kernels(neighborhood, queries, settings));
     find_radii(device, neighborhood, queries, {rank}, radii, STAGE, progress);
-    const shared::DescribeSettings push{make_gather_settings(neighborhood, rank), settings.free_at, settings.fixed_at,
-                                        0, 0};
+    const shared::DescribeSettings push{make_gather_settings(neighborhood, rank),
+                                        static_cast<float>((*settings.thresholds)[0]),
+                                        static_cast<float>((*settings.thresholds)[1]), 0, 0};
     for (GatherKernel& kernel : name_measures(settings.descriptor)) {
         for (const gpu::Binding& binding : {gpu::Binding{"radii", radii},
                                             {"offsets", constraint.offsets},

@@ -15,8 +15,9 @@ struct Constraint {
     gpu::Buffer member_radii; // x r², y weight at r, z one-sidedness, w axis ratio t
 };
 
-// Measures a descriptor for every photon of the neighborhood's tree. `radii` gets the radii found.
+// Measures the descriptor for every photon of the neighborhood's tree, by complete settings. `radii` gets the radii
+// found.
 Constraint measure_constraint(gpu::Device& device, const Neighborhood& neighborhood, const Queries& queries,
-                              const ConstraintSettings& settings, const gpu::Buffer& radii, const Progress& progress);
+                              const RelaxSettings& settings, const gpu::Buffer& radii, const Progress& progress);
 
 } // namespace photonloupe

@@ -31,7 +31,7 @@ float scale_radius2(std::uint32_t k, std::uint32_t other) {
 
 // METHODS (2): over-relaxation fades over the steps.
 float find_tau(const RelaxSettings& settings, std::uint32_t step) {
-    const double s = static_cast<double>(step) / settings.steps;
+    const double s = static_cast<double>(step) / std::max(*settings.steps, 1u);
     const auto [most, least] = settings.over_relaxation;
     return static_cast<float>(least + (most - least) * std::exp(-6.0 * s * s));
 }
@@ -121,28 +121,28 @@ Relaxation::Relaxation(gpu::Device& device, const PhotonMap& photons, const Rela
 
 // Measures the constraint in the tree that suits it and brings it into the order of the photons' own.
 void Relaxation::constrain(const RelaxTrees& trees, const Progress& progress) {
-    const ConstraintSettings& constraint = m_settings.constraint;
-    if (constraint.descriptor == Descriptor::none)
+    if (!m_settings.constrains())
         return;
-    m_carry = scale_radius2(m_settings.neighbors, constraint.neighbors);
-    if (constraint.space == Space::world) {
+    const std::uint32_t k = *m_settings.constraint_neighbors;
+    m_carry = scale_radius2(m_settings.neighbors, k);
+    if (m_settings.constraint == Space::world) {
         Neighborhood world{m_tree, Measure::surface};
-        world.period = m_settings.period;
+        world.period = find_period();
         world.flat_axes = m_flat_axes;
-        m_constraint = measure_constraint(m_device, world, ask_photons(m_tree), constraint, m_radii, progress);
+        m_constraint = measure_constraint(m_device, world, ask_photons(m_tree), m_settings, m_radii, progress);
         return;
     }
     const ParameterTree& layered = *trees.layered;
     m_notes = layered.parameters->notes;
-    const gpu::Buffer reach2 = find_layer_reaches(m_device, *trees.by_parameters, layered.tree, constraint.neighbors,
-                                                  constraint.beta, progress);
-    note_reaches(layered, reach2, "constraint", constraint.beta);
+    const gpu::Buffer reach2 =
+        find_layer_reaches(m_device, *trees.by_parameters, layered.tree, k, find_beta(), progress);
+    note_reaches(layered, reach2, "constraint");
     Neighborhood layers = look_in(layered, Measure::surface);
     layers.is_layered = true;
-    layers.period = m_settings.period;
+    layers.period = find_period();
     layers.flat_axes = m_flat_axes;
     m_constraint =
-        measure_constraint(m_device, layers, ask_photons(layered.tree, &reach2), constraint, m_radii, progress);
+        measure_constraint(m_device, layers, ask_photons(layered.tree, &reach2), m_settings, m_radii, progress);
     if (m_settings.repel == Space::world)
         bring_rows(
             layered.tree.positions.read<glm::vec4>(m_photons.count), m_tree,
@@ -152,29 +152,39 @@ void Relaxation::constrain(const RelaxTrees& trees, const Progress& progress) {
 void Relaxation::take_layers(const RelaxTrees& trees, const Progress& progress) {
     if (m_settings.repel == Space::world)
         return;
-    m_reach2 =
-        find_layer_reaches(m_device, *trees.by_parameters, m_tree, m_settings.neighbors, m_settings.beta, progress);
+    m_reach2 = find_layer_reaches(m_device, *trees.by_parameters, m_tree, m_settings.neighbors, find_beta(), progress);
     if (m_notes.empty()) {
         m_notes = m_parameters->notes;
-        note_reaches(*trees.layered, m_reach2, "repulsion", m_settings.beta);
+        note_reaches(*trees.layered, m_reach2, "repulsion");
     }
 }
 
-void Relaxation::note_reaches(const ParameterTree& tree, const gpu::Buffer& reaches2, const char* of, float beta) {
+void Relaxation::note_reaches(const ParameterTree& tree, const gpu::Buffer& reaches2, const char* of) {
     const double share = measure_boundless_share(tree, reaches2.read<float>(m_photons.count));
     if (share < BOUNDLESS_SHARE || !tree.parameters->notes.empty())
         return;
     std::ostringstream text;
     text << "the layers of the " << of << " reach over all of parameter space for " << std::round(100.0 * share)
-         << " % of the photons at beta " << beta << ": they keep nothing apart, as in world space; take a smaller beta "
+         << " % of the photons at beta " << find_beta()
+         << ": they keep nothing apart, as in world space; take a smaller beta "
          << "or fewer neighbors";
     m_notes.push_back(text.str());
+}
+
+float Relaxation::find_beta() const {
+    return static_cast<float>(m_settings.beta.value_or(0.0));
+}
+
+std::array<float, 3> Relaxation::find_period() const {
+    std::array<float, 3> period;
+    std::copy(m_settings.period.begin(), m_settings.period.end(), period.begin());
+    return period;
 }
 
 // What the photons look for in each step, where they are now.
 Neighborhood Relaxation::look() const {
     Neighborhood neighborhood{m_tree, Measure::surface};
-    neighborhood.period = m_settings.period;
+    neighborhood.period = find_period();
     neighborhood.flat_axes = m_flat_axes;
     if (m_parameters) {
         neighborhood.is_layered = true;
@@ -240,7 +250,7 @@ GatherKernel Relaxation::name_repulsion() const {
     GatherKernel kernel{"relax/repel_photons.comp", {}, {}};
     if (m_settings.search == RadiusSearch::carried)
         kernel.defines.emplace_back("CARRIED");
-    if (m_settings.constraint.descriptor != Descriptor::none)
+    if (m_settings.constrains())
         kernel.defines.emplace_back("CONSTRAINED");
     return kernel;
 }
@@ -269,13 +279,13 @@ std::vector<gpu::KernelSource> Relaxation::list_kernels() const {
 }
 
 void Relaxation::repel(float tau, const Progress& progress) {
-    const float limiter =
-        m_settings.limit > 0 ? std::numbers::ln2_v<float> / (m_settings.limit * m_settings.limit) : 0.0f;
+    const auto limit = static_cast<float>(m_settings.limit.value_or(0.0));
+    const float limiter = limit > 0 ? std::numbers::ln2_v<float> / (limit * limit) : 0.0f;
     const Neighborhood neighborhood = look();
     const Queries queries = ask();
     const RadiusSettings radius = choose_radius(m_step);
     find_radii(m_device, neighborhood, queries, radius, m_radii, STAGE, progress);
-    const bool is_constrained = m_settings.constraint.descriptor != Descriptor::none;
+    const bool is_constrained = m_settings.constrains();
     GatherKernel kernel = name_repulsion();
     for (const gpu::Binding& binding : {gpu::Binding{"constraint_along", is_constrained ? m_constraint.along : m_moves},
                                         {"constraint_across", is_constrained ? m_constraint.across : m_moves},
@@ -315,7 +325,7 @@ void Relaxation::rebuild_tree(const Progress& progress) {
 void Relaxation::move(const Progress& progress) {
     const gpu::KernelSource kernel = name_move_kernel();
     const SceneBuffers* scene = m_surface.scene.get();
-    const bool is_constrained = m_settings.constraint.descriptor != Descriptor::none;
+    const bool is_constrained = m_settings.constrains();
     const gpu::Buffer& unused = m_next;
     gpu::run_in_chunks(m_device, STAGE, m_photons.count, FIRST_CHUNK, progress,
                        [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
@@ -436,7 +446,7 @@ void Relaxation::read_state(RelaxedColumns& columns, const std::vector<glm::vec4
     const std::uint64_t count = m_photons.count;
     const std::vector<glm::vec4> moves = count ? m_moves.read<glm::vec4>(count) : std::vector<glm::vec4>{};
     columns.state.pressure = scatter<float>(order, 1, [&](std::size_t at, float* value) { *value = moves[at].w; });
-    if (m_settings.constraint.descriptor == Descriptor::none || count == 0)
+    if (!m_settings.constrains() || count == 0)
         return;
     const std::vector<glm::vec4> along = m_constraint.along.read<glm::vec4>(count);
     const std::vector<glm::vec4> across = m_constraint.across.read<glm::vec4>(count);

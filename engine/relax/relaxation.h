@@ -42,7 +42,8 @@ struct RelaxTrees {
 
 class Relaxation {
 public:
-    // Measures the constraint. Without a surface's scene photons move in their tangent planes.
+    // Measures the constraint; settings are complete, β too where layers count. Without a surface's scene photons move
+    // in their tangent planes.
     Relaxation(gpu::Device& device, const PhotonMap& photons, const RelaxTrees& trees, const RelaxSettings& settings,
                RelaxSurface surface, const Progress& progress);
 
@@ -67,7 +68,9 @@ private:
     Queries ask() const;
     void constrain(const RelaxTrees& trees, const Progress& progress);
     void take_layers(const RelaxTrees& trees, const Progress& progress);
-    void note_reaches(const ParameterTree& tree, const gpu::Buffer& reaches2, const char* of, float beta);
+    void note_reaches(const ParameterTree& tree, const gpu::Buffer& reaches2, const char* of);
+    float find_beta() const;
+    std::array<float, 3> find_period() const;
     RadiusSettings choose_radius(std::uint32_t step) const;
     GatherKernel name_repulsion() const;
     gpu::KernelSource name_move_kernel() const;

@@ -88,7 +88,7 @@ enum class Effect : std::uint8_t {
 };
 
 // What an argument means, so that ranges and uniformity are checked in one place.
-// A neighbor count (k) is 1-1,000, a bin count 1-4,096; an item is a whole number without bounds of its own.
+// An item is a whole number without bounds of its own.
 enum class Argument : std::uint8_t {
     number,
     photon,

@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "studio/edit_state.h"
+#include "studio/stage_choices.h"
 
 namespace photonloupe::studio {
 namespace {
 
 constexpr std::size_t MOST_PINS = 8;
-constexpr std::uint32_t LARGEST_K = 1000;
 constexpr double GROWTH = 1.25;
 
 void change_loupe(Workspace& workspace, const char* name, const std::function<void(LoupeState&)>& make) {
@@ -17,10 +17,12 @@ void change_loupe(Workspace& workspace, const char* name, const std::function<vo
 }
 
 // Steps made with other choices are those of another relaxation.
-void begin_relaxation(RelaxState& relax) {
-    if (relax.used != relax.choices)
+void begin_relaxation(StudioState& state) {
+    RelaxState& relax = state.relax;
+    const RelaxSettings chosen = decide_steps(state);
+    if (relax.used != chosen)
         relax.made = 0;
-    relax.used = relax.choices;
+    relax.used = chosen;
     relax.is_measured = true;
 }
 
@@ -56,7 +58,7 @@ void lock_to_pin(Workspace& workspace) {
     change_loupe(workspace, "lock range", [](LoupeState& loupe) {
         loupe.lock = loupe.lock == "pin" ? "none" : "pin";
         if (loupe.lock == "pin")
-            loupe.space = "constrained";
+            loupe.space = SearchSpace::constrained;
     });
 }
 
@@ -64,13 +66,13 @@ void lock_to_brushes(Workspace& workspace) {
     change_loupe(workspace, "lock range", [](LoupeState& loupe) {
         loupe.lock = loupe.lock == "brushes" ? "none" : "brushes";
         if (loupe.lock == "brushes")
-            loupe.space = "constrained";
+            loupe.space = SearchSpace::constrained;
     });
 }
 
 void grow_loupe(Workspace& workspace) {
     change_loupe(workspace, "loupe size", [](LoupeState& loupe) {
-        loupe.k = std::min(LARGEST_K, static_cast<std::uint32_t>(loupe.k * GROWTH) + 1);
+        loupe.k = std::min(MOST_NEIGHBORS, static_cast<std::uint32_t>(loupe.k * GROWTH) + 1);
     });
 }
 
@@ -81,7 +83,7 @@ void shrink_loupe(Workspace& workspace) {
 
 void change_space(Workspace& workspace) {
     change_loupe(workspace, "loupe space", [](LoupeState& loupe) {
-        loupe.space = loupe.space == "world" ? "parameter" : loupe.space == "parameter" ? "constrained" : "world";
+        loupe.space = static_cast<SearchSpace>((static_cast<std::uint32_t>(loupe.space) + 1) % 3);
     });
 }
 
@@ -91,7 +93,7 @@ void toggle_paths(Workspace& workspace) {
 
 void measure_constraint_command(Workspace& workspace) {
     workspace.change("measure constraint", [](StudioState& state) {
-        begin_relaxation(state.relax);
+        begin_relaxation(state);
         state.relax.made = 0;
     });
 }
@@ -99,7 +101,7 @@ void measure_constraint_command(Workspace& workspace) {
 void step_relaxation(Workspace& workspace) {
     workspace.done.erase("relax");
     workspace.change("relaxation step", [](StudioState& state) {
-        begin_relaxation(state.relax);
+        begin_relaxation(state);
         ++state.relax.made;
         state.view.shows_relaxed = true;
     });
@@ -108,8 +110,8 @@ void step_relaxation(Workspace& workspace) {
 void run_relaxation(Workspace& workspace) {
     workspace.done.erase("relax");
     workspace.change("relax", [](StudioState& state) {
-        begin_relaxation(state.relax);
-        state.relax.made = std::max(state.relax.choices.steps, state.relax.made);
+        begin_relaxation(state);
+        state.relax.made = std::max(*state.relax.used.steps, state.relax.made);
         state.view.shows_relaxed = true;
     });
 }

@@ -8,6 +8,8 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "studio/setting_rows.h"
+#include "studio/stage_choices.h"
 #include "studio/tone_map.h"
 #include "studio/widgets.h"
 
@@ -32,11 +34,6 @@ void ImagePanel::draw_choices(Workspace& workspace) {
     const int tone = ui::choose(workspace, "Image/Tone", "tone", now.tone, {"srgb", "filmic"});
     if (tone >= 0)
         edit(workspace, "tone", [&](ImageState& state) { state.tone = tone == 0 ? "srgb" : "filmic"; });
-    if (ui::slide(workspace, "Image/k", "k", image.k, 4, 500, true))
-        edit(workspace, "image k", [&](ImageState& state) { state.k = image.k; });
-    ImGui::SameLine(half);
-    if (ui::slide(workspace, "Image/Samples", "samples", image.samples, 1, 64, true))
-        edit(workspace, "samples", [&](ImageState& state) { state.samples = image.samples; });
     if (ui::slide(workspace, "Image/Overlay", "false color", image.overlay, 0, 1, "%.2f"))
         edit(workspace, "false color", [&](ImageState& state) { state.overlay = image.overlay; });
     ImGui::SameLine(half);
@@ -46,6 +43,10 @@ void ImagePanel::draw_choices(Workspace& workspace) {
             state.shows = shown == 0 ? "image" : shown == 1 ? "reference" : "error";
         });
     ImGui::PopItemWidth();
+    ImageState completed = complete_choices(image, workspace.state.trace);
+    if (const std::string changed = ui::edit_settings(workspace, "Image", list_choices(image), list_choices(completed));
+        !changed.empty())
+        edit(workspace, ("image " + changed).c_str(), [&](ImageState& state) { state.render = image.render; });
     if (ui::button(workspace, "Image/Compare", "Compare", "Load the reference named on the right (EXR, 640 × 480)"))
         edit(workspace, "reference", [&](ImageState& state) { state.reference = m_reference; });
     ImGui::SameLine();

@@ -124,7 +124,7 @@ void draw_view(Workspace& workspace, const ViewFrame& frame, const inspect::Loup
     find_tangents(view.center_normal, right, up);
     // In parameter space the found may lie anywhere: the circle then only marks the place.
     const float reach = view.radius > 0 && std::isfinite(view.radius) ? view.radius : 0.0f;
-    if (workspace.state.loupe.space != "parameter")
+    if (workspace.state.loupe.space != SearchSpace::parameter)
         pen.loop(view.place, reach * right, reach * up, CIRCLE_SEGMENTS, ring, 1.5f);
     draw_basis(pen, view, 0.8f * reach);
     if (const auto center = pen.find(view.center_position))

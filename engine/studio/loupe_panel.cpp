@@ -8,6 +8,7 @@
 
 #include "studio/edit_state.h"
 #include "studio/panels.h"
+#include "studio/setting_rows.h"
 #include "studio/widgets.h"
 
 namespace photonloupe::studio {
@@ -69,27 +70,15 @@ void change_loupe(Workspace& workspace, const char* name, const Change& make) {
 
 void draw_choices(Workspace& workspace) {
     const LoupeState& loupe = workspace.state.loupe;
-    const float width = ImGui::GetContentRegionAvail().x;
-    ImGui::SetNextItemWidth(0.42f * width);
-    std::uint32_t k = loupe.k;
-    if (ui::slide(workspace, "Loupe/k", "k", k, 1, 1000, true))
-        change_loupe(workspace, "loupe size", [&](LoupeState& state) { state.k = k; });
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(0.34f * width);
-    const int space = ui::choose(workspace, "Loupe/Space", "space", loupe.space, {"world", "parameter", "constrained"},
-                                 "Where photons are near: in the world, in parameter space, or in the world among "
-                                 "those within a range of parameters");
-    if (space >= 0)
-        change_loupe(workspace, "loupe space", [&](LoupeState& state) {
-            state.space = space == 0 ? "world" : space == 1 ? "parameter" : "constrained";
-        });
-    ImGui::BeginDisabled(loupe.space != "constrained");
-    ImGui::SetNextItemWidth(0.42f * width);
-    float beta = loupe.beta;
-    if (ui::slide(workspace, "Loupe/Beta", "β", beta, 0.0f, 30.0f))
-        change_loupe(workspace, "loupe β", [&](LoupeState& state) { state.beta = beta; });
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(0.34f * width);
+    inspect::LoupeSettings settings = loupe;
+    if (const std::string changed =
+            ui::edit_settings(workspace, "Loupe", list_settings(settings), list_settings(settings));
+        !changed.empty())
+        change_loupe(workspace, ("loupe " + changed).c_str(),
+                     [&](LoupeState& state) { static_cast<inspect::LoupeSettings&>(state) = settings; });
+    ImGui::SameLine(0.5f * ImGui::GetContentRegionAvail().x);
+    ImGui::BeginDisabled(loupe.space != SearchSpace::constrained);
+    ImGui::SetNextItemWidth(0.34f * ImGui::GetContentRegionAvail().x);
     const int lock = ui::choose(workspace, "Loupe/Lock", "range", loupe.lock, {"none", "pin", "brushes"},
                                 "What the parameter range keeps to while the cursor moves: the photon under it, the "
                                 "last pin, or the brushed intervals");
@@ -161,8 +150,9 @@ void draw_numbers(Workspace& workspace) {
         return;
     }
     const inspect::LoupeView& first = *shown.front().second;
+    LoupeState state = workspace.state.loupe;
     ui::say_empty(std::to_string(first.ids.size()) + " photons within " + format(first.radius) + " m, " +
-                  workspace.state.loupe.space + "; basis of " +
+                  write_text(find_setting(list_settings<inspect::LoupeSettings>(state), "space")) + "; basis of " +
                   (first.has_constraint ? "the constraint" : "the photons found"));
     if (!ImGui::BeginTable("##numbers", static_cast<int>(shown.size()) + 1,
                            ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_ScrollY))

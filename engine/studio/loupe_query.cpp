@@ -5,15 +5,10 @@
 #include <chrono>
 
 #include "core/error.h"
+#include "core/settings.h"
 
 namespace photonloupe::studio {
 namespace {
-
-SearchSpace parse_space(const std::string& name) {
-    return name == "parameter"     ? SearchSpace::parameter
-           : name == "constrained" ? SearchSpace::constrained
-                                   : SearchSpace::world;
-}
 
 // The brushes of the parameters' axes; those without one take everything.
 void lock_to_ranges(Workspace& workspace, inspect::LoupeQuery& query) {
@@ -31,10 +26,7 @@ void lock_to_ranges(Workspace& workspace, inspect::LoupeQuery& query) {
 
 inspect::LoupeQuery make_query(Workspace& workspace, const Photons& photons) {
     const LoupeState& loupe = workspace.state.loupe;
-    inspect::LoupeQuery query;
-    query.k = loupe.k;
-    query.space = parse_space(loupe.space);
-    query.beta = loupe.beta;
+    inspect::LoupeQuery query{loupe};
     if (query.space == SearchSpace::constrained && photons.map.parameters) {
         if (loupe.lock == "pin" && !loupe.pins.empty())
             query.pinned = loupe.pins.back();
@@ -45,11 +37,11 @@ inspect::LoupeQuery make_query(Workspace& workspace, const Photons& photons) {
 }
 
 std::string write_key(const Workspace& workspace, const Photons* photons) {
-    const LoupeState& loupe = workspace.state.loupe;
+    LoupeState loupe = workspace.state.loupe;
     std::string key = std::to_string(workspace.loupe_version) + " " +
                       std::to_string(workspace.results.photons_version) + " " +
-                      std::to_string(reinterpret_cast<std::uintptr_t>(photons)) + " " + std::to_string(loupe.k) + " " +
-                      loupe.space + " " + std::to_string(loupe.beta) + " " + loupe.lock;
+                      std::to_string(reinterpret_cast<std::uintptr_t>(photons)) + " " +
+                      photonloupe::write_key(list_settings<inspect::LoupeSettings>(loupe)) + loupe.lock;
     for (const double value : loupe.point)
         key += " " + std::to_string(std::bit_cast<std::uint64_t>(value));
     for (const std::uint32_t pin : loupe.pins)

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "studio/camera.h"
+#include "studio/stage_choices.h"
 
 namespace photonloupe::studio {
 namespace {
@@ -34,6 +35,32 @@ std::string write(const std::array<T, Size>& values) {
     return text + ")";
 }
 
+std::string write(const Setting& setting) {
+    const SettingValue value = setting.read(setting);
+    if (std::holds_alternative<std::monostate>(value))
+        return setting.about.empty == "auto" ? quote("auto") : "None";
+    if (const auto* flag = std::get_if<bool>(&value))
+        return write(*flag);
+    if (const auto* name = std::get_if<std::string>(&value))
+        return quote(*name);
+    return setting.kind == SettingKind::numbers ? "(" + write_text(value) + ")" : write_text(value);
+}
+
+// What differs from the defaults, as further arguments of a call.
+std::string write_arguments(const std::vector<Setting>& settings, const std::vector<Setting>& defaults) {
+    std::string text;
+    for (std::size_t i = 0; i < settings.size(); ++i)
+        if (settings[i].read(settings[i]) != defaults[i].read(defaults[i]))
+            text += ", " + settings[i].about.name + "=" + write(settings[i]);
+    return text;
+}
+
+template <class Settings>
+std::string write_arguments(Settings& settings) {
+    Settings defaults;
+    return write_arguments(list_settings(settings), list_settings(defaults));
+}
+
 // Raw, where the text allows it, so that a script stays readable.
 std::string write_script(const std::string& text) {
     const bool is_plain = text.find("'''") == std::string::npos && text.find('\r') == std::string::npos &&
@@ -48,9 +75,8 @@ std::string write_trace(const TraceState& trace) {
         text += "scene = pl.load_scene(" + quote(trace.scene) + ")\n";
     if (!trace.map.empty())
         return text + "photons = pl.load_photons(" + quote(trace.map) + ")\n";
-    return text + "photons = pl.trace_photons(scene, " + std::to_string(trace.photons) +
-           ", seed=" + std::to_string(trace.seed) + ", emission=" + quote(trace.emission) +
-           ", store=" + quote(trace.store) + ")\n";
+    TraceState copy = trace;
+    return text + "photons = pl.trace_photons(scene" + write_arguments<TraceSettings>(copy) + ")\n";
 }
 
 std::string write_run(const ScriptState& script) {
@@ -65,18 +91,9 @@ std::string write_run(const ScriptState& script) {
 std::string write_relax(const RelaxState& relax) {
     if (relax.made == 0 && !relax.is_measured)
         return "relaxed = photons\n";
-    const RelaxChoices& used = relax.used;
-    return "relaxation = pl.Relaxation(\n    photons, steps=" + std::to_string(used.steps) +
-           ", neighbors=" + std::to_string(used.neighbors) + ", constraint=" + quote(used.constraint) +
-           ", descriptor=" + quote(used.descriptor) +
-           ",\n    beta=" + (used.has_auto_beta ? "\"auto\"" : write(used.beta)) + ", repel=" + quote(used.repel) +
-           ", over_relaxation=" + write(used.over_relaxation) +
-           ", limit=" + (used.limit > 0 ? write(used.limit) : "None") +
-           ",\n    constraint_neighbors=" + std::to_string(used.constraint_neighbors) +
-           (used.thresholds[0] != used.thresholds[1] ? ", thresholds=" + write(used.thresholds) : "") +
-           ", search=" + quote(used.search) + ", surface=" + quote(used.surface) +
-           ", diffuse_flux=" + write(used.diffuse_flux) + ",\n)\nfor _ in range(" + std::to_string(relax.made) +
-           "):\n    relaxation.step()\nrelaxed = relaxation.photons\n";
+    RelaxSettings used = relax.used;
+    return "relaxation = pl.Relaxation(photons" + write_arguments(used) + ")\nfor _ in range(" +
+           std::to_string(relax.made) + "):\n    relaxation.step()\nrelaxed = relaxation.photons\n";
 }
 
 std::string write_render(const StudioState& state) {
@@ -84,11 +101,13 @@ std::string write_render(const StudioState& state) {
         return "";
     const CameraPose pose = find_pose(state.view.camera);
     const bool is_colored = state.view.mode == ViewMode::colored_render;
+    ImageState image = state.image, defaults;
+    defaults.render = {};
     return "camera = pl.Camera(position=" + write(pose.position) + ", target=" + write(pose.target) +
            ", up=" + write(pose.up) + ", yfov=" + write(pose.yfov) + ")\nimage = pl.render(\n    scene, " +
            (state.view.shows_relaxed ? "relaxed" : "photons") +
            ", camera=camera, width=" + std::to_string(RENDER_WIDTH) + ", height=" + std::to_string(RENDER_HEIGHT) +
-           ", samples=" + std::to_string(state.image.samples) + ", k=" + std::to_string(state.image.k) +
+           write_arguments(list_choices(image), list_choices(defaults)) +
            ", mode=" + (is_colored ? "\"false-color\"" : "\"composite\"") + ",\n)\nimage.save(\"view.exr\")\n";
 }
 
@@ -122,15 +141,13 @@ std::string name_shown(const StudioState& state) {
 
 std::string write_loupe(const StudioState& state, const std::vector<std::string>& parameters) {
     const LoupeState& loupe = state.loupe;
+    LoupeState copy = loupe;
     if (!loupe.has_point)
         return "";
     std::string text = "view = pl.inspect.loupe(\n    " + name_shown(state) + ", " + write(loupe.point) +
-                       ", k=" + std::to_string(loupe.k) + ", space=" + quote(loupe.space);
-    if (loupe.space != "constrained")
+                       write_arguments<inspect::LoupeSettings>(copy);
+    if (loupe.space != SearchSpace::constrained)
         return text + ",\n)\n"; // the others have no range to lock
-    text += ", beta=" + write(loupe.beta);
-    if (loupe.space != "constrained")
-        return text + ",\n)\n";
     if (loupe.lock == "pin" && !loupe.pins.empty())
         text += ", center=" + std::to_string(loupe.pins.back());
     if (const std::string ranges = write_ranges(state.parallel, parameters); loupe.lock == "brushes" && !ranges.empty())

@@ -11,12 +11,13 @@
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/json_place.h"
+#include "core/setting_json.h"
 #include "studio/session_fields.h"
 
 namespace photonloupe::studio {
 namespace {
 
-constexpr int SESSION_VERSION = 1;
+constexpr int SESSION_VERSION = 2;
 constexpr const char* FORMAT = "photonloupe session";
 constexpr std::uintmax_t LARGEST_SESSION = 256u << 20;
 constexpr std::size_t MOST_IDS = 1u << 28;
@@ -33,6 +34,8 @@ public:
     }
     void whole_numbers(const char* name, std::vector<std::uint32_t>& values, std::size_t) { m_target[name] = values; }
     void numbers_by_name(const char* name, std::map<std::string, double>& values, double) { m_target[name] = values; }
+    void settings(const std::vector<Setting>& settings) { m_target.update(write_json(settings)); }
+    void member(const char* name, const std::vector<Setting>& settings) { m_target[name] = write_json(settings); }
     template <class T>
     void number(const char* name, T& value, double, double) {
         m_target[name] = value;
@@ -119,6 +122,16 @@ public:
             return;
         const std::string given = take_text(*found, place(name), LONGEST_NAME);
         value = static_cast<T>(first + static_cast<int>(find_choice(name, given, names) - names.begin()));
+    }
+    void settings(const std::vector<Setting>& settings) {
+        for (const Setting& setting : settings)
+            if (const Json* found = find(setting.label().c_str()))
+                if (const std::string fault = read_json(setting, *found); !fault.empty())
+                    refuse_field(place(setting.label().c_str()), fault);
+    }
+    void member(const char* name, const std::vector<Setting>& settings) {
+        if (const Json* found = find(name))
+            Reader(*found, place(name), m_folder).settings(settings);
     }
     template <class T>
     void number(const char* name, T& value, double low, double high) {
@@ -283,6 +296,23 @@ private:
     const std::filesystem::path& m_folder;
 };
 
+// Version 1 said by odd values what is automatic: a flag of β, a limit of 0, thresholds that are equal.
+void rewrite_first_version(Json& document) {
+    for (const char* place : {"/relax/choices", "/relax/used"}) {
+        const Json::json_pointer at(place);
+        if (!document.contains(at) || !document[at].is_object())
+            continue;
+        Json& settings = document[at];
+        if (settings.value("has_auto_beta", Json()) == Json(true))
+            settings["beta"] = "auto";
+        if (settings.value("limit", Json()) == Json(0))
+            settings["limit"] = "none";
+        const Json thresholds = settings.value("thresholds", Json());
+        if (thresholds.is_array() && thresholds.size() == 2 && thresholds[0] == thresholds[1])
+            settings["thresholds"] = "auto";
+    }
+}
+
 std::filesystem::path find_folder(const std::filesystem::path& path) {
     return std::filesystem::absolute(path).lexically_normal().parent_path();
 }
@@ -299,7 +329,7 @@ std::string write_state(const StudioState& state, const std::filesystem::path& f
 }
 
 StudioState read_state(const std::string& text, const std::filesystem::path& folder) {
-    const Json document = Json::parse(text, nullptr, false);
+    Json document = Json::parse(text, nullptr, false);
     if (document.is_discarded())
         throw Error("session: the file is not JSON; open a file that the studio saved");
     Reader reader(document, "", folder);
@@ -309,9 +339,11 @@ StudioState read_state(const std::string& text, const std::filesystem::path& fol
     reader.number("version", version, 0, 1e9);
     if (format != FORMAT)
         throw Error("session: the file is not a session; open a file that the studio saved");
-    if (version != SESSION_VERSION)
-        throw Error("session: version " + std::to_string(version) + " is not known, only " +
+    if (version < 1 || version > SESSION_VERSION)
+        throw Error("session: version " + std::to_string(version) + " is not known, only 1 to " +
                     std::to_string(SESSION_VERSION) + "; open it with the program that saved it");
+    if (version == 1)
+        rewrite_first_version(document);
     StudioState state;
     visit(reader, state);
     return state;

@@ -2,7 +2,7 @@
 // What a session holds, once for both directions: each field with its name and what it may be.
 #pragma once
 
-#include "studio/state.h"
+#include "studio/stage_choices.h"
 
 namespace photonloupe::studio {
 
@@ -15,10 +15,7 @@ template <class Archive>
 void visit(Archive& archive, TraceState& trace) {
     archive.path("scene", trace.scene);
     archive.path("map", trace.map);
-    archive.number("photons", trace.photons, 1, 1e9);
-    archive.number("seed", trace.seed, 0, 4294967295.0);
-    archive.choice("emission", trace.emission, {"sobol", "random"});
-    archive.choice("store", trace.store, {"caustic", "indirect", "all"});
+    archive.settings(list_settings<TraceSettings>(trace));
 }
 
 template <class Archive>
@@ -55,9 +52,7 @@ void visit(Archive& archive, ViewState& view) {
 
 template <class Archive>
 void visit(Archive& archive, LoupeState& loupe) {
-    archive.number("k", loupe.k, 1, 1000);
-    archive.choice("space", loupe.space, {"world", "parameter", "constrained"});
-    archive.number("beta", loupe.beta, 0, 1e18);
+    archive.settings(list_settings<inspect::LoupeSettings>(loupe));
     archive.choice("lock", loupe.lock, {"none", "pin", "brushes"});
     archive.flag("has_point", loupe.has_point);
     archive.array("point", loupe.point, LARGEST);
@@ -105,28 +100,10 @@ void visit(Archive& archive, HistogramState& histogram) {
 }
 
 template <class Archive>
-void visit(Archive& archive, RelaxChoices& relax) {
-    archive.number("steps", relax.steps, 0, 10'000);
-    archive.number("neighbors", relax.neighbors, 1, 998);
-    archive.choice("constraint", relax.constraint, {"auto", "world", "parameter"});
-    archive.choice("descriptor", relax.descriptor, {"none", "gradient", "pca", "tensor", "split"});
-    archive.choice("repel", relax.repel, {"world", "parameter"});
-    archive.number("beta", relax.beta, 0, 1e18);
-    archive.flag("has_auto_beta", relax.has_auto_beta);
-    archive.array("over_relaxation", relax.over_relaxation, 1e3);
-    archive.number("limit", relax.limit, 0, 1e6);
-    archive.number("constraint_neighbors", relax.constraint_neighbors, 12, 998);
-    archive.array("thresholds", relax.thresholds, LARGEST);
-    archive.choice("search", relax.search, {"exact", "carried"});
-    archive.choice("surface", relax.surface, {"auto", "tangent"});
-    archive.flag("diffuse_flux", relax.diffuse_flux);
-}
-
-template <class Archive>
 void visit(Archive& archive, RelaxState& relax) {
-    archive.member("choices", relax.choices);
-    archive.member("used", relax.used);
-    archive.number("made", relax.made, 0, 10'000);
+    archive.member("choices", list_settings(relax.choices));
+    archive.member("used", list_settings(relax.used));
+    archive.number("made", relax.made, 0, MOST_STEPS);
     archive.flag("is_measured", relax.is_measured);
 }
 
@@ -135,8 +112,7 @@ void visit(Archive& archive, ImageState& image) {
     archive.number("exposure", image.exposure, -64, 64);
     archive.choice("tone", image.tone, {"srgb", "filmic"});
     archive.number("overlay", image.overlay, 0, 1);
-    archive.number("k", image.k, 1, 1000);
-    archive.number("samples", image.samples, 1, 1024);
+    archive.settings(list_choices(image));
     archive.path("reference", image.reference);
     archive.choice("shows", image.shows, {"image", "reference", "error"});
 }

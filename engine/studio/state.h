@@ -9,18 +9,19 @@
 #include <string>
 #include <vector>
 
+#include "estimate/settings.h"
+#include "inspect/settings.h"
+#include "relax/settings.h"
+
 namespace photonloupe::studio {
 
 // Photon ids, ascending; shared, so that states are cheap to copy. Null: nothing is selected.
 using Ids = std::shared_ptr<const std::vector<std::uint32_t>>;
 
-struct TraceState {
-    std::string scene; // path; empty: none
-    std::string map;   // path of a saved map that takes the place of tracing; empty: none
-    std::uint32_t photons = 50'000;
-    std::uint32_t seed = 1;
-    std::string emission = "sobol";
-    std::string store = "caustic";
+struct TraceState : TraceSettings {
+    std::string scene;               // path; empty: none
+    std::string map;                 // path of a saved map that takes the place of tracing; empty: none
+    TraceState() { count = 50'000; } // to be looked at soon
     bool operator==(const TraceState&) const = default;
 };
 
@@ -55,10 +56,7 @@ struct ViewState {
     bool operator==(const ViewState&) const = default;
 };
 
-struct LoupeState {
-    std::uint32_t k = 250;
-    std::string space = "world"; // world, parameter, constrained
-    float beta = 3.0f;
+struct LoupeState : inspect::LoupeSettings {
     std::string lock = "none"; // none: the range follows the cursor's photon; pin: that of the last pin; brushes
     bool has_point = false;
     std::array<double, 3> point{}; // where the cursor is, metres
@@ -104,27 +102,9 @@ struct HistogramState {
     bool operator==(const HistogramState&) const = default;
 };
 
-struct RelaxChoices {
-    std::uint32_t steps = 5; // the best of Sobol emission (docs/relaxation.md); random wants 20
-    std::uint32_t neighbors = 20;
-    std::string constraint = "auto"; // auto, world, parameter
-    std::string descriptor = "tensor";
-    std::string repel = "world";
-    float beta = 10.0f;
-    bool has_auto_beta = false;
-    std::array<float, 2> over_relaxation{1.0f, 1.0f};
-    float limit = 0.3f; // 0: none
-    std::uint32_t constraint_neighbors = 50;
-    std::array<float, 2> thresholds{}; // free at, fixed at; equal: the descriptor's own
-    std::string search = "exact";
-    std::string surface = "auto";
-    bool diffuse_flux = false;
-    bool operator==(const RelaxChoices&) const = default;
-};
-
 struct RelaxState {
-    RelaxChoices choices;     // as they stand in the panel
-    RelaxChoices used;        // of the steps that were made
+    RelaxSettings choices;    // as they stand in the panel
+    RelaxSettings used;       // of the steps that were made; how many were meant is decided
     std::uint32_t made = 0;   // steps
     bool is_measured = false; // the constraint is known, even of no steps
     bool is_wanted() const { return made > 0 || is_measured; }
@@ -135,8 +115,7 @@ struct ImageState {
     float exposure = 0.0f;     // stops
     std::string tone = "srgb"; // srgb, filmic
     float overlay = 0.5f;      // strength of false colors
-    std::uint32_t k = 50;
-    std::uint32_t samples = 1;
+    RenderSettings render{.samples = 1};
     std::string reference;       // path of a picture to compare with
     std::string shows = "image"; // image, reference, error
     bool operator==(const ImageState&) const = default;

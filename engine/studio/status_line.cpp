@@ -9,6 +9,7 @@
 #include "studio/commands.h"
 #include "studio/menus.h"
 #include "studio/panels.h"
+#include "studio/setting_rows.h"
 #include "studio/theme.h"
 #include "studio/widgets.h"
 
@@ -41,29 +42,11 @@ void draw_trace_menu(Workspace& workspace) {
         ImGui::OpenPopup("trace");
     if (!ImGui::BeginPopup("trace"))
         return;
-    const TraceState& now = workspace.state.trace;
-    const auto edit = [&](const char* name, const auto& make) {
-        workspace.change(name, [&](StudioState& state) { make(state.trace); });
-    };
-    ImGui::PushItemWidth(160 * workspace.scale);
-    int photons = static_cast<int>(now.photons), seed = static_cast<int>(now.seed);
-    if (ImGui::InputInt("photons", &photons, 10'000, 100'000, ImGuiInputTextFlags_EnterReturnsTrue))
-        edit("photons", [&](TraceState& state) {
-            state.photons = static_cast<std::uint32_t>(std::clamp(photons, 1, 1'000'000'000));
-        });
-    ui::mark(workspace, "Trace/Photons");
-    if (ImGui::InputInt("seed", &seed, 1, 10, ImGuiInputTextFlags_EnterReturnsTrue))
-        edit("seed", [&](TraceState& state) { state.seed = static_cast<std::uint32_t>(std::max(seed, 0)); });
-    ui::mark(workspace, "Trace/Seed");
-    const int emission = ui::choose(workspace, "Trace/Emission", "emission", now.emission, {"sobol", "random"});
-    if (emission >= 0)
-        edit("emission", [&](TraceState& state) { state.emission = emission == 0 ? "sobol" : "random"; });
-    const int store = ui::choose(workspace, "Trace/Store", "store", now.store, {"caustic", "indirect", "all"});
-    if (store >= 0)
-        edit("store", [&](TraceState& state) {
-            state.store = store == 0 ? "caustic" : store == 1 ? "indirect" : "all";
-        });
-    ImGui::PopItemWidth();
+    TraceSettings settings = workspace.state.trace;
+    const std::vector<Setting> rows = list_settings(settings);
+    ImGui::Dummy({480 * workspace.scale, 0}); // two columns
+    if (const std::string changed = ui::edit_settings(workspace, "Trace", rows, rows); !changed.empty())
+        workspace.change(changed, [&](StudioState& state) { static_cast<TraceSettings&>(state.trace) = settings; });
     ImGui::EndPopup();
 }
 

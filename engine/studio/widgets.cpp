@@ -36,7 +36,7 @@ bool toggle(Workspace& workspace, const std::string& name, const char* label, bo
 }
 
 int choose(Workspace& workspace, const std::string& name, const char* label, const std::string& current,
-           std::initializer_list<const char*> entries, const char* about) {
+           const std::vector<std::string>& entries, const char* about) {
     int chosen = -1;
     const bool is_open = ImGui::BeginCombo(label, current.c_str());
     mark(workspace, name);
@@ -44,8 +44,8 @@ int choose(Workspace& workspace, const std::string& name, const char* label, con
     if (!is_open)
         return chosen;
     int index = 0;
-    for (const char* entry : entries) {
-        if (ImGui::Selectable(entry, current == entry))
+    for (const std::string& entry : entries) {
+        if (ImGui::Selectable(entry.c_str(), current == entry))
             chosen = index;
         mark(workspace, name + "/" + entry);
         ++index;

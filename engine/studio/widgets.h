@@ -2,8 +2,8 @@
 // Widgets whose places are known by name, and which change the state by commands.
 #pragma once
 
-#include <initializer_list>
 #include <string>
+#include <vector>
 
 #include "studio/workspace.h"
 
@@ -18,7 +18,7 @@ bool button(Workspace& workspace, const std::string& name, const char* label, co
 bool toggle(Workspace& workspace, const std::string& name, const char* label, bool is_on, const char* about = nullptr);
 // Returns the entry that was chosen now, or -1.
 int choose(Workspace& workspace, const std::string& name, const char* label, const std::string& current,
-           std::initializer_list<const char*> entries, const char* about = nullptr);
+           const std::vector<std::string>& entries, const char* about = nullptr);
 // A column of the photons in view; true: `value` was changed.
 bool choose_column(Workspace& workspace, const std::string& name, const char* label, std::string& value,
                    const char* extra = nullptr);

@@ -4,38 +4,28 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/setting_json.h"
 #include "studio/camera.h"
+#include "studio/stage_choices.h"
 
 namespace photonloupe::studio {
 namespace {
 
 using Settings = nlohmann::json;
 
+// By the names that Python has for them.
+Settings write_settings(const std::vector<Setting>& settings) {
+    Settings written = Settings::object();
+    for (const Setting& setting : settings)
+        written[setting.about.name] = write_json(setting);
+    return written;
+}
+
 Settings describe_trace(const TraceState& trace) {
     if (!trace.map.empty())
         return {{"map", trace.map}};
-    return {{"scene", trace.scene},
-            {"photons", trace.photons},
-            {"seed", trace.seed},
-            {"emission", trace.emission},
-            {"store", trace.store}};
-}
-
-Settings describe_relax(const RelaxChoices& relax, bool has_parameters) {
-    const bool uses_parameters = relax.constraint == "parameter" || (relax.constraint == "auto" && has_parameters);
-    return {{"steps", relax.steps},
-            {"neighbors", relax.neighbors},
-            {"constraint", uses_parameters ? "parameter" : "world"},
-            {"descriptor", relax.descriptor},
-            {"repel", relax.repel},
-            {"beta", relax.has_auto_beta ? Settings("auto") : Settings(relax.beta)},
-            {"over_relaxation", relax.over_relaxation},
-            {"limit", relax.limit > 0 ? Settings(relax.limit) : Settings(nullptr)},
-            {"constraint_neighbors", relax.constraint_neighbors},
-            {"thresholds", relax.thresholds[0] != relax.thresholds[1] ? Settings(relax.thresholds) : Settings(nullptr)},
-            {"search", relax.search},
-            {"surface", relax.surface},
-            {"diffuse_flux", relax.diffuse_flux}};
+    TraceState copy = trace;
+    return {{"scene", trace.scene}, {"settings", write_settings(list_settings<TraceSettings>(copy))}};
 }
 
 Settings describe_camera(const CameraPose& pose) {
@@ -75,7 +65,10 @@ std::optional<Job> plan_work(const StudioState& state, const CameraPose& camera,
     if (ask(job, done, "script", script_key, script))
         return job;
     if (state.relax.is_wanted()) {
-        Settings relax = describe_relax(state.relax.used, holding.parameters);
+        RelaxSettings used = state.relax.used;
+        if (!used.constraint)
+            used.constraint = holding.parameters ? Space::parameter : Space::world;
+        Settings relax{{"settings", write_settings(list_settings(used))}};
         const std::string settings_key = script_key + relax.dump();
         relax["made"] = state.relax.made;
         relax["settings_key"] = settings_key;
@@ -86,9 +79,9 @@ std::optional<Job> plan_work(const StudioState& state, const CameraPose& camera,
     if (wanted.isotropy && holding.parameters && ask(job, done, "isotropy", script_key, Settings::object()))
         return job;
     if (wanted.image && holding.scene) {
+        ImageState image = state.image;
         Settings render{{"camera", describe_camera(camera)},
-                        {"k", state.image.k},
-                        {"samples", state.image.samples},
+                        {"settings", write_settings(list_choices(image))},
                         {"relaxed", state.view.shows_relaxed && state.relax.is_wanted()}};
         if (ask(job, done, "render", version + render.dump(), render))
             return job;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "core/settings.h"
 #include "photons/growing_buffer.h"
 #include "trace/chunk.h"
 
@@ -17,7 +18,6 @@ constexpr double SLOW_CHUNK = 2.0;
 constexpr double FAST_CHUNK = 0.625;
 // A scene whose first 64 blocks store nothing is given up (METHODS §1), and so is one that needs more than 2^30.
 constexpr std::uint64_t EMPTY_BLOCK_LIMIT = 64;
-constexpr std::uint64_t EMISSION_LIMIT = 1ull << 30;
 // Paths a lane shoots in turn, so that none waits for the longest; all their loop turns come from one budget
 // (shaders/shared/turns.glsl), so long paths go alone.
 constexpr std::uint32_t PATHS_PER_LANE = 8;
@@ -27,7 +27,6 @@ constexpr std::uint32_t SHORT_PATH_BOUNCES = 24;
 constexpr double EXPECTATION_MARGIN = 1.03;
 constexpr std::uint64_t LARGEST_EXPECTATION = 1ull << 26;
 constexpr std::uint64_t PHOTON_BYTES = 3 * sizeof(glm::vec4);
-constexpr std::uint32_t LARGEST_BOUNCE_COUNT = 64;
 
 // What a trace dispatches, in this order.
 struct TraceKernels {
@@ -114,7 +113,7 @@ std::string describe_gigabytes(std::uint64_t bytes) {
 }
 
 void Tracer::require_memory() const {
-    if (m_settings.emitted > 0)
+    if (m_settings.emitted)
         return; // how many will be stored is not known; each growth is checked
     const std::uint64_t needed = m_settings.count * PHOTON_BYTES;
     const std::uint64_t one = m_device.limits().max_allocation_bytes / sizeof(glm::vec4);
@@ -138,7 +137,7 @@ void Tracer::choose_chunk(double milliseconds) {
         m_scratch = {}; // freed before the larger one is asked for
         m_scratch = allocate_chunk(m_device, size, m_slot_count, m_settings.emission);
     }
-    const std::uint64_t left = m_settings.emitted > 0 ? m_settings.emitted - m_report.emitted : size;
+    const std::uint64_t left = m_settings.emitted ? *m_settings.emitted - m_report.emitted : size;
     m_push.first = static_cast<std::uint32_t>(m_report.emitted);
     m_push.count = static_cast<std::uint32_t>(std::min<std::uint64_t>(size, left));
     m_push.seed = m_settings.seed;
@@ -179,7 +178,7 @@ double Tracer::shoot() {
 
 // All paths of the chunk, or up to the first whole emission block that reaches the count.
 std::uint32_t Tracer::find_kept_paths(const std::vector<glm::uvec2>& offsets) const {
-    if (m_settings.emitted > 0)
+    if (m_settings.emitted)
         return m_push.count;
     constexpr std::uint32_t blocks_per_cut = shared::EMISSION_BLOCK / shared::PATHS_PER_BLOCK;
     for (std::uint32_t cut = blocks_per_cut; cut < offsets.size(); cut += blocks_per_cut)
@@ -190,8 +189,8 @@ std::uint32_t Tracer::find_kept_paths(const std::vector<glm::uvec2>& offsets) co
 
 // What a column will need in the end if the rest of the work is like the part done, so that columns seldom grow.
 std::uint64_t Tracer::expect_total(std::uint64_t so_far, std::uint32_t kept) const {
-    const double done = m_settings.emitted > 0
-                            ? static_cast<double>(m_report.emitted + kept) / static_cast<double>(m_settings.emitted)
+    const double done = m_settings.emitted
+                            ? static_cast<double>(m_report.emitted + kept) / static_cast<double>(*m_settings.emitted)
                             : static_cast<double>(so_far) / static_cast<double>(m_settings.count);
     const double expected = static_cast<double>(so_far) / std::clamp(done, 1e-6, 1.0) * EXPECTATION_MARGIN;
     return std::max(so_far, std::min(static_cast<std::uint64_t>(expected), LARGEST_EXPECTATION));
@@ -201,7 +200,7 @@ void Tracer::reserve(const glm::uvec2& added, std::uint32_t kept) {
     const std::uint64_t photons = m_photon_count + added.x;
     const std::uint64_t vertices = m_vertex_count + added.y;
     const std::uint64_t expected =
-        m_settings.emitted > 0 ? expect_total(photons, kept) : std::max(photons, m_settings.count);
+        m_settings.emitted ? expect_total(photons, kept) : std::max(photons, m_settings.count);
     for (GrowingBuffer* column : {&m_position, &m_normal, &m_power})
         if (column->buffer().size_bytes() < photons * sizeof(glm::vec4) || column->buffer().is_empty())
             column->reserve(expected * sizeof(glm::vec4), m_photon_count * sizeof(glm::vec4));
@@ -275,11 +274,11 @@ bool Tracer::account(std::uint32_t kept) {
 }
 
 bool Tracer::is_done() const {
-    return m_settings.emitted > 0 ? m_report.emitted >= m_settings.emitted : m_photon_count >= m_settings.count;
+    return m_settings.emitted ? m_report.emitted >= *m_settings.emitted : m_photon_count >= m_settings.count;
 }
 
 void Tracer::require_progress() const {
-    if (m_settings.emitted > 0)
+    if (m_settings.emitted)
         return;
     const std::string where = m_scene.path.string() + ": ";
     if (m_photon_count == 0 && m_report.emitted >= EMPTY_BLOCK_LIMIT * shared::EMISSION_BLOCK)
@@ -289,14 +288,14 @@ void Tracer::require_progress() const {
                          " were cut off at max_bounces, none reached a diffuse receiver" +
                          (m_settings.store == Store::caustic ? " by way of a specular surface" : "") +
                          "; check where the light and the receiver are");
-    if (m_report.emitted >= EMISSION_LIMIT)
+    if (m_report.emitted >= MOST_EMITTED)
         throw SceneError(where + std::to_string(m_photon_count) + " photons were stored by 2^30 emitted, " +
                          std::to_string(m_settings.count) + " asked; ask for fewer, or move the light closer");
 }
 
 double Tracer::find_fraction() const {
-    return m_settings.emitted > 0 ? static_cast<double>(m_report.emitted) / static_cast<double>(m_settings.emitted)
-                                  : static_cast<double>(m_photon_count) / static_cast<double>(m_settings.count);
+    return m_settings.emitted ? static_cast<double>(m_report.emitted) / static_cast<double>(*m_settings.emitted)
+                              : static_cast<double>(m_photon_count) / static_cast<double>(m_settings.count);
 }
 
 // A workgroup ran out of loop turns: from now on each lane shoots one path with all of them.
@@ -374,21 +373,11 @@ TracedPhotons Tracer::finish(const Progress& progress) {
     return traced;
 }
 
-void require_settings(const TraceSettings& settings) {
-    if (settings.emitted == 0 && settings.count == 0)
-        throw Error("trace_photons: count is 0; ask for at least 1 photon");
-    if (settings.emitted > EMISSION_LIMIT)
-        throw Error("trace_photons: emitted is " + std::to_string(settings.emitted) + "; the largest is 2^30");
-    if (settings.max_bounces < 1 || settings.max_bounces > LARGEST_BOUNCE_COUNT)
-        throw Error("trace_photons: max_bounces is " + std::to_string(settings.max_bounces) + "; it must be 1 to " +
-                    std::to_string(LARGEST_BOUNCE_COUNT));
-}
-
 } // namespace
 
 TracedPhotons trace_photons(gpu::Device& device, const Scene& scene, const SceneBuffers& buffers,
                             const TraceSettings& settings, const Progress& progress) {
-    require_settings(settings);
+    require_settings("trace_photons", settings);
     return Tracer(device, scene, buffers, settings).run(progress);
 }
 

@@ -5,26 +5,9 @@
 #include "core/progress.h"
 #include "photons/photon_map.h"
 #include "scene/scene_buffers.h"
-#include "shared/trace.h"
+#include "trace/settings.h"
 
 namespace photonloupe {
-
-enum class Emission : std::uint32_t { sobol = shared::EMISSION_SOBOL, random = shared::EMISSION_RANDOM };
-enum class Store : std::uint32_t {
-    caustic = shared::STORE_CAUSTIC,
-    indirect = shared::STORE_INDIRECT,
-    all = shared::STORE_ALL,
-};
-
-struct TraceSettings {
-    std::uint64_t count = 200'000; // least number of stored photons
-    std::uint64_t emitted = 0;     // when not 0: emit exactly these many instead
-    std::uint32_t seed = 1;
-    Emission emission = Emission::sobol;
-    Store store = Store::caustic;
-    std::uint32_t max_bounces = 16; // interactions before the storage point
-    bool paths = false;             // record path columns
-};
 
 // Where every emitted photon went: exact counts of paths, and flux in W per channel.
 struct TraceReport {

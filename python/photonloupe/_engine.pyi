@@ -26,6 +26,19 @@ class DeviceMemoryError(PhotonLoupeError):
 class Cancelled(PhotonLoupeError):
     pass
 
+def describe_settings(stage: str) -> list:
+    """
+    Every setting of trace, relax, irradiance, render or loupe: name, kind, default, range …
+    """
+
+def complete_relaxation(given: dict, emission: str | None, has_parameters: bool) -> dict:
+    """
+    All settings of a relaxation, what is automatic filled in but for beta.
+    """
+
+def choose_k(emission: str | None) -> int:
+    """How many photons an estimate gathers where nothing is said."""
+
 def list_devices() -> list:
     """Every Vulkan device of this machine."""
 
@@ -127,7 +140,7 @@ def set_parameters(device: Device, photons: PhotonMap, values: Annotated[NDArray
 
 def trace_photons(device: Device, scene: Scene, settings: dict, progress: object | None = None) -> PhotonMap:
     """
-    Trace photons; settings: count, emitted, seed, emission, store, max_bounces, paths.
+    Trace photons; settings as describe_settings("trace") has them, and paths.
     """
 
 def record_paths(device: Device, photons: PhotonMap, scene: Scene, settings: dict, progress: object | None = None) -> None:
@@ -200,15 +213,17 @@ def relax_photons(device: Device, photons: PhotonMap, scene: object | None, sett
 
 def start_relaxation(device: Device, photons: PhotonMap, scene: object | None, settings: dict, progress: object | None = None) -> Relaxation:
     """
-    Measure the constraint and stand ready; settings: steps, neighbors, over_relaxation, limit, repel, beta, search, diffuse_flux, period, descriptor, constraint, constraint_neighbors, thresholds.
+    Measure the constraint and stand ready; settings as describe_settings("relax") has them.
     """
 
-def estimate_irradiance(device: Device, photons: PhotonMap, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', writable=False)], normals: Annotated[NDArray[numpy.float32], dict(shape=(None, 3), order='C', writable=False)], k: int, kernel: str, progress: object | None = None) -> NDArray[numpy.float32]:
-    """Irradiance (n, 3) in W/m² at points with unit normals."""
+def estimate_irradiance(device: Device, photons: PhotonMap, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', writable=False)], normals: Annotated[NDArray[numpy.float32], dict(shape=(None, 3), order='C', writable=False)], settings: dict, progress: object | None = None) -> NDArray[numpy.float32]:
+    """
+    Irradiance (n, 3) in W/m² at points with unit normals; settings as describe_settings("irradiance") has them.
+    """
 
 def render_image(device: Device, scene: Scene, photons: object | None, settings: dict, progress: object | None = None) -> Annotated[NDArray[numpy.float32], dict(shape=(None, None, None))]:
     """
-    Linear radiance (height, width, 3); settings: camera, width, height, samples, mode, k, kernel, seed.
+    Linear radiance (height, width, 3); settings as describe_settings("render") has them, and camera.
     """
 
 def write_file(path: str, content: bytes) -> None:

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from photonloupe.checks import check_finite
 from photonloupe.errors import ArgumentError
+from photonloupe.settings import list_settings
 
 Columns = dict[str, NDArray[Any]]
 
@@ -74,7 +75,7 @@ PATH_NAMES = (PATH_OFFSETS.name, *(column.name for column in PATH_COLUMNS))
 REQUIRED = ("positions", "normals", "power")
 
 # Photon ids are 32-bit signed in every neighbor list.
-MAX_PHOTONS = 2**31 - 1
+MAX_PHOTONS = list_settings("trace")["count"].limits[1]
 # Normals written as text with four digits still pass.
 _UNIT_TOLERANCE = 1e-3
 # A map without objects says so in every row.

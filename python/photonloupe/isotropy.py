@@ -14,9 +14,10 @@ from photonloupe.checks import check_count, check_number
 from photonloupe.device_photons import DevicePhotons
 from photonloupe.errors import ArgumentError
 from photonloupe.progress import ProgressLike, follow_progress
+from photonloupe.settings import list_settings
 
 BINS = 64
-LARGEST_K = 998
+BETA_NEIGHBORS, CLIPPED_SHARE = 100, 0.05  # where nothing is said
 
 
 @dataclass(frozen=True)
@@ -49,7 +50,7 @@ class OptimalBeta(float):
 
 
 def optimal_beta(
-    photons: DevicePhotons, k: int = 100, clip: float = 0.05, *, progress: ProgressLike = None
+    photons: DevicePhotons, k: int = BETA_NEIGHBORS, clip: float = CLIPPED_SHARE, *, progress: ProgressLike = None
 ) -> OptimalBeta:
     """Find the β that clips the neighborhoods of only a share `clip` of the photons ([SJL15] section 5.2, eqs. 5, 6).
 
@@ -84,7 +85,24 @@ def optimal_beta(
     >>> bool(1.9 < pl.optimal_beta(photons) < 2.4)
     True
     """
-    k = check_count("k", k, 3, LARGEST_K)
+    beta = find_beta(photons, k, clip, progress)
+    if beta is None:
+        raise ArgumentError(explain_no_ratio(photons))
+    return beta
+
+
+def explain_no_ratio(photons: DevicePhotons) -> str:
+    """Say why β cannot be found, and what to do."""
+    named = ", ".join(repr(name) for name in photons.parameter_names)
+    return (
+        f"no photon has an axis ratio: by {named} more than k photons are alike, or none has parameters, or all are in "
+        "one place; then every β gives the same layers, so give a number, or parameters that differ"
+    )
+
+
+def find_beta(photons: DevicePhotons, k: int, clip: float, progress: ProgressLike) -> OptimalBeta | None:
+    """Find the same, or None where no photon has an axis ratio: then the layers are the same whatever β is."""
+    k = check_count("k", k, 3, list_settings("relax")["neighbors"].limits[1])
     clip = check_number("clip", clip, 0.0, 0.5)
     if "parameters" not in photons.recorded:
         raise ArgumentError("optimal_beta needs parameters; set_parameters() or a script sets them")
@@ -92,11 +110,7 @@ def optimal_beta(
         values = np.asarray(_engine.measure_isotropy(photons.device._native, photons._native, k, callback))
     known = values[~np.isnan(values)]
     if len(known) == 0:
-        named = ", ".join(repr(name) for name in photons.parameter_names)
-        raise ArgumentError(
-            f"no photon has an axis ratio: by {named} more than k photons are alike, or none has parameters, or all are "
-            "in one place; then every β gives the same layers, so give a number, or parameters that differ"
-        )
+        return None
     edges = np.linspace(0.0, 1.0, BINS + 1)
     histogram = np.histogram(known, edges)[0].astype(np.int64)
     t_beta = float(np.quantile(known, clip))

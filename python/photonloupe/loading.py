@@ -10,7 +10,7 @@ from photonloupe.device import Device, open_device
 from photonloupe.errors import FileFormatError
 from photonloupe.parameters import list_axes, read_parameters
 from photonloupe.photons import MAX_EMITTED, PhotonMap
-from photonloupe.tracing import STORES
+from photonloupe.settings import list_settings
 
 
 def load_photons(path: str | os.PathLike[str], *, device: Device | int | str | None = None) -> PhotonMap:
@@ -38,7 +38,7 @@ def load_photons(path: str | os.PathLike[str], *, device: Device | int | str | N
     opened = open_device(device)
     # What a map stores decides what a composite adds to it.
     store = meta["settings"].get("store", "caustic")
-    if store not in STORES or not 0 <= meta["emitted"] <= MAX_EMITTED:
+    if store not in list_settings("trace")["store"].choices or not 0 <= meta["emitted"] <= MAX_EMITTED:
         raise FileFormatError(f"{path} does not say rightly what was emitted and stored; save the map again")
     return PhotonMap(
         _engine.photons_from_columns(opened._native, columns, axes, store, meta["emitted"]),

@@ -10,17 +10,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from photonloupe import _engine
-from photonloupe.checks import check_choice, check_count, check_number, check_rows, check_vectors
+from photonloupe.checks import check_count, check_number, check_rows, check_vectors
 from photonloupe.device_photons import DevicePhotons
 from photonloupe.errors import ArgumentError
 from photonloupe.parameters import FIRST_DIMENSION, Parameter
 from photonloupe.progress import ProgressLike, follow_progress
 from photonloupe.relax_settings import check_beta
-
-MAX_NEIGHBORS = 1000
-SPACES = ("world", "parameter", "constrained")
-# β of a layer that is looked at (METHODS section 4); relaxation has its own (relax_settings.py).
-DEFAULT_BETA = 3.0
+from photonloupe.settings import list_settings
 
 Found = tuple[NDArray[np.int32], NDArray[np.float32]]
 
@@ -30,15 +26,14 @@ def find_neighbors(
     points: ArrayLike,
     k: int,
     *,
-    space: str = "world",
-    beta: float | str = DEFAULT_BETA,
+    space: str | None = None,
+    beta: float | str | None = None,
     center: int | None = None,
     ranges: Mapping[int | str, tuple[float, float]] | None = None,
     progress: ProgressLike = None,
 ) -> Found:
     """Check the query and run it; see `PhotonMap.neighbors`."""
-    check_choice("space", space, SPACES)
-    k = check_count("k", k, 1, MAX_NEIGHBORS)
+    k, space, reach = check_look(k, space, beta)
     if space != "constrained" and (center is not None or ranges is not None):
         raise ArgumentError('center and ranges lock the layer of space="constrained"')
     if space != "world" and "parameters" not in photons.recorded:
@@ -46,11 +41,17 @@ def find_neighbors(
     ids, vectors = _read_query(photons, points, space)
     query: dict[str, Any] = {"space": space, "beta": 0.0, "center": None, "low": None, "high": None}
     if space == "constrained":
-        query.update(_check_layer(photons, ids is not None, beta, center, ranges, progress))
+        query.update(_check_layer(photons, ids is not None, reach, center, ranges, progress))
     with follow_progress(progress) as callback:
         device = photons.device._native
         found, distances = _engine.find_neighbors(device, photons._native, vectors, ids, k, query, callback)
     return np.asarray(found), np.asarray(distances)
+
+
+def check_look(k: Any, space: Any, beta: Any) -> tuple[int, str, float | str]:
+    """Check how many photons are looked at, and where; β is checked where it counts."""
+    known = list_settings("loupe")
+    return known["k"].check(k), known["space"].check(space), known["beta"].default if beta is None else beta
 
 
 def _read_query(

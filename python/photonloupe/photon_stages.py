@@ -12,24 +12,26 @@ from numpy.typing import ArrayLike, NDArray
 
 from photonloupe import queries
 from photonloupe.device_photons import DevicePhotons
-from photonloupe.nearest import DEFAULT_BETA, find_neighbors
+from photonloupe.nearest import find_neighbors
 from photonloupe.photon_columns import Float3
 from photonloupe.progress import ProgressLike
-from photonloupe.relax_settings import RelaxKeywords
 from photonloupe.relaxing import relax_photons
 from photonloupe.scripting import Script, ScriptRun, run_script
+from photonloupe.setting_keywords import IrradianceKeywords, RelaxKeywords
+from photonloupe.settings import takes_settings
 
 
 class PhotonStages(DevicePhotons):
     """The stages of the main flow that begin with photons."""
 
+    @takes_settings("loupe")
     def neighbors(
         self,
         points: ArrayLike,
         k: int,
         *,
-        space: str = "world",
-        beta: float | str = DEFAULT_BETA,
+        space: str | None = None,
+        beta: float | str | None = None,
         center: int | None = None,
         ranges: Mapping[int | str, tuple[float, float]] | None = None,
         progress: ProgressLike = None,
@@ -41,15 +43,7 @@ class PhotonStages(DevicePhotons):
         points
             Points (n, 3) in m, or ids (n,) of photons; a photon is not its own neighbor. In parameter space
             (n, m) values, or ids.
-        k
-            How many, 1 to 1000.
-        space
-            ``"world"``: all photons, by distance in m. ``"parameter"``: photons with parameters, by distance in
-            parameter space; to an id only those of its emitter. ``"constrained"``: those of the same layer, by
-            distance in m: of the same emitter and within β r_q in parameter space, r_q the distance to the k-th
-            neighbor there (METHODS section 4). Photons without parameters are a layer of their own.
-        beta
-            β of the constrained space, or ``"auto"`` for `optimal_beta`.
+        {settings}
         center
             Constrained space around points: the layer is that of this photon.
         ranges
@@ -57,6 +51,9 @@ class PhotonStages(DevicePhotons):
             dimensions counted from 3; a periodic parameter may run from high over the seam to low.
         progress
             True for a bar, or a callback ``(stage, fraction)`` that returns False to stop.
+
+        In the world distances are in m. In parameter space those to an id are to photons of its emitter only. A layer
+        is of the same emitter; photons without parameters are one of their own (METHODS section 4).
 
         Returns
         -------
@@ -80,14 +77,14 @@ class PhotonStages(DevicePhotons):
         """
         return find_neighbors(self, points, k, space=space, beta=beta, center=center, ranges=ranges, progress=progress)
 
+    @takes_settings("irradiance")
     def irradiance(
         self,
         points: ArrayLike,
         normals: ArrayLike,
         *,
-        k: int | None = None,
-        kernel: str = "epanechnikov",
         progress: ProgressLike = None,
+        **settings: Unpack[IrradianceKeywords],
     ) -> Float3:
         """Estimate the irradiance from the k nearest photons of the same surface (METHODS section 2).
 
@@ -95,10 +92,7 @@ class PhotonStages(DevicePhotons):
         ----------
         points, normals
             (n, 3) each: m, directions; one normal (3,) serves all points.
-        k
-            How many photons, 1 to 1000; by default what suits the map's emission.
-        kernel
-            ``"epanechnikov"``, ``"disc"``, ``"cone"`` or ``"gaussian"``.
+        {settings}
         progress
             True for a bar, or a callback ``(stage, fraction)`` that returns False to stop.
 
@@ -112,10 +106,7 @@ class PhotonStages(DevicePhotons):
         ArgumentError
             If a point or normal is not finite, a normal is zero, or k or kernel is not offered.
         """
-        k = queries.choose_k(self.settings) if k is None else k
-        return queries.estimate_irradiance(
-            self._device, self._native, points, normals, k=k, kernel=kernel, progress=progress
-        )
+        return queries.estimate_irradiance(self, points, normals, progress=progress, **settings)
 
     def run_script(
         self,
@@ -191,6 +182,7 @@ class PhotonStages(DevicePhotons):
         """
         return relax_photons(self, progress, **{**settings, "steps": 0})
 
+    @takes_settings("relax")
     def relax(
         self,
         steps: int | None = None,
@@ -205,36 +197,7 @@ class PhotonStages(DevicePhotons):
 
         Parameters
         ----------
-        steps
-            S of eq. 2. It trades noise for bias: photons keep flattening gradients, they never settle.
-        neighbors
-            K of eq. 1, 1 to 998.
-        constraint
-            Which photons say where one may go: ``"world"`` all around it, ``"parameter"`` those of its layer (see
-            `neighbors`), ``"auto"`` the latter where the map has parameters.
-        descriptor
-            ``"pca"``, ``"tensor"``, ``"split"``, ``"gradient"`` (one-sidedness alone), or ``"none"``.
-        beta
-            Reach of layers, or ``"auto"`` for `optimal_beta`.
-        repel
-            Whether all photons repel, ``"world"``, or those of the same layer, ``"parameter"``.
-        over_relaxation
-            λmax and λmin of eq. 2, or one number for both.
-        limit
-            ρ of the migration limiter, eq. 5; None: no limit.
-        constraint_neighbors
-            k of the descriptor, 12 to 998; default 50, split 150.
-        thresholds
-            Value of the descriptor that leaves a photon free, and the one that fixes it across.
-        diffuse_flux
-            Let fluxes even out too; the total is kept.
-        search
-            ``"exact"`` radii, or ``"carried"``: those of the step before, corrected by the number of photons within
-            (faster; its error is in docs/relaxation.md).
-        surface
-            ``"auto"``: photons return to the surface they lie on; ``"tangent"``: they move in their tangent planes.
-        period
-            Lengths (3,) in m after which space repeats along x, y and z, 0 where it does not; None: nowhere.
+        {settings}
         progress
             True for a bar, or a callback ``(stage, fraction)`` that returns False to stop.
 

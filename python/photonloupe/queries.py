@@ -3,41 +3,37 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Mapping
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from photonloupe import _engine
-from photonloupe.checks import check_choice, check_count, check_vectors
-from photonloupe.device import Device
+from photonloupe.checks import check_vectors
+from photonloupe.device_photons import DevicePhotons
 from photonloupe.errors import ArgumentError
-from photonloupe.nearest import MAX_NEIGHBORS
 from photonloupe.progress import ProgressLike, follow_progress
-
-KERNELS = ("epanechnikov", "disc", "cone", "gaussian")
-# Best k of the unrelaxed ring caustic, 200,000 photons: 50 on Sobol emission, about 100 on random (METHODS section 7).
-DEFAULT_K = {"sobol": 50, "random": 100}
+from photonloupe.setting_keywords import IrradianceKeywords
+from photonloupe.settings import check_settings, name_emission
 
 
-def choose_k(settings: dict[str, Any]) -> int:
-    """Return the number of photons an estimate gathers when nothing is said."""
-    return DEFAULT_K.get(str(settings.get("emission")), DEFAULT_K["random"])
+def find_k(settings: Mapping[str, Any], k: int | None) -> int:
+    """Return the number of photons an estimate gathers of a map: those that were asked for, or what suits it."""
+    return _engine.choose_k(name_emission(settings)) if k is None else k
 
 
 def estimate_irradiance(
-    device: Device,
-    photons: _engine.PhotonMap,
+    photons: DevicePhotons,
     points: ArrayLike,
     normals: ArrayLike,
     *,
-    k: int,
-    kernel: str = "epanechnikov",
     progress: ProgressLike = None,
+    **given: Unpack[IrradianceKeywords],
 ) -> NDArray[np.float32]:
     """Check the query and run it; see `PhotonMap.irradiance`."""
-    check_choice("kernel", kernel, KERNELS)
-    k = check_count("k", k, 1, MAX_NEIGHBORS)
+    settings = check_settings("irradiance", given)
+    settings["k"] = find_k(photons.settings, settings["k"])
     where = check_vectors("points", points)
     facing = np.asarray(normals)
     if facing.ndim == 1:
@@ -49,5 +45,6 @@ def estimate_irradiance(
     if (length == 0.0).any():
         raise ArgumentError(f"normals[{int(np.argmin(length))}] is zero; a normal needs a direction")
     unit = np.ascontiguousarray(facing / length, dtype=np.float32)
+    native = photons.device._native
     with follow_progress(progress) as callback:
-        return np.asarray(_engine.estimate_irradiance(device._native, photons, where, unit, k, kernel, callback))
+        return np.asarray(_engine.estimate_irradiance(native, photons._native, where, unit, settings, callback))

@@ -13,8 +13,10 @@ from numpy.typing import NDArray
 from photonloupe import _engine
 from photonloupe.device_photons import DevicePhotons
 from photonloupe.progress import ProgressLike, follow_progress
-from photonloupe.relax_settings import AllRelaxKeywords, check_settings
+from photonloupe.relax_settings import complete_settings
 from photonloupe.scene import Scene
+from photonloupe.setting_keywords import AllRelaxKeywords
+from photonloupe.settings import takes_settings
 
 LOG = logging.getLogger("photonloupe")
 
@@ -44,18 +46,17 @@ class Relaxation(Generic[PhotonsT]):
     500
     """
 
+    @takes_settings("relax")
     def __init__(
         self, photons: PhotonsT, *, progress: ProgressLike = None, **settings: Unpack[AllRelaxKeywords]
     ) -> None:
         self._source = photons
-        self._settings = check_settings(photons, progress, **settings)
+        self._settings = complete_settings(photons, progress, **settings)
         self._rows: list[dict[str, Any]] = []
         self._scene = _find_surface(photons, self._settings)
-        # The engine divides by the number of steps, even where none is made.
-        native_settings = _make_native(self._settings, max(self._settings["steps"], 1))
         with follow_progress(progress) as callback:
             self._native = _engine.start_relaxation(
-                photons.device._native, photons._native, _take_native(self._scene), native_settings, callback
+                photons.device._native, photons._native, _take_native(self._scene), self._settings, callback
             )
         _warn(self.notes)
 
@@ -126,15 +127,11 @@ class Relaxation(Generic[PhotonsT]):
 
 def relax_photons(photons: PhotonsT, progress: ProgressLike, **settings: Unpack[AllRelaxKeywords]) -> PhotonsT:
     """Run a whole relaxation; see `PhotonMap.relax`."""
-    checked = check_settings(photons, progress, **settings)
+    checked = complete_settings(photons, progress, **settings)
     scene = _find_surface(photons, checked)
     with follow_progress(progress) as callback:
         native, rows, notes, off_surface = _engine.relax_photons(
-            photons.device._native,
-            photons._native,
-            _take_native(scene),
-            _make_native(checked, checked["steps"]),
-            callback,
+            photons.device._native, photons._native, _take_native(scene), checked, callback
         )
     _warn(notes)
     return photons.replace(native, _describe(checked, rows, scene, notes, off_surface))
@@ -146,10 +143,6 @@ def _find_surface(photons: DevicePhotons, settings: Mapping[str, Any]) -> Scene 
 
 def _take_native(scene: Scene | None) -> _engine.Scene | None:
     return None if scene is None else scene._native
-
-
-def _make_native(settings: Mapping[str, Any], steps: int) -> dict[str, Any]:
-    return {**settings, "limit": settings["limit"] or 0.0, "steps": steps}
 
 
 def _warn(notes: Sequence[str]) -> None:

@@ -3,11 +3,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Unpack
 
 from photonloupe import _engine, queries
 from photonloupe.camera import Camera, check_camera
-from photonloupe.checks import check_choice, check_count
 from photonloupe.device import Device, open_device
 from photonloupe.errors import ArgumentError
 from photonloupe.image import Image
@@ -15,27 +14,21 @@ from photonloupe.photons import PhotonMap
 from photonloupe.progress import ProgressLike, follow_progress
 from photonloupe.provenance import describe_origin
 from photonloupe.scene import Scene
-from photonloupe.tracing import MAX_SEED
+from photonloupe.setting_keywords import RenderKeywords
+from photonloupe.settings import check_settings, list_settings, takes_settings
 
-MODES = ("composite", "caustic", "direct", "photons", "false-color", "voronoi")
-MAX_SIDE = 16_384
-MAX_SAMPLES = 65_536
+MAX_SIDE = list_settings("render")["width"].limits[1]
 
 
+@takes_settings("render")
 def render(
     scene: Scene,
     photons: PhotonMap | None = None,
     *,
     camera: str | Camera | None = None,
-    width: int = 512,
-    height: int = 512,
-    samples: int = 4,
-    mode: str = "composite",
-    k: int | None = None,
-    kernel: str = "epanechnikov",
-    seed: int = 1,
     device: Device | int | str | None = None,
     progress: ProgressLike = None,
+    **settings: Unpack[RenderKeywords],
 ) -> Image:
     """Render what a camera of the scene sees.
 
@@ -47,19 +40,7 @@ def render(
         The map to gather from; only ``mode="direct"`` does without.
     camera
         Its name, or a `Camera` of your own; by default the scene's first, or one that fits the bounds if there is none.
-    width, height
-        In pixels; the camera's vertical angle is kept whatever the aspect.
-    samples
-        Per pixel, box filter.
-    mode
-        ``"composite"`` emission + direct light + map, ``"caustic"`` the map alone, ``"direct"`` direct light alone,
-        ``"photons"`` the stored photons as dots, ``"false-color"`` the mean color a script gave the photons around
-        times the luminance of their irradiance, ``"voronoi"`` the cells of the photons on the surfaces seen, in the
-        colors a script gave, else in one of its own each (`photonloupe.inspect.voronoi` tells which is which).
-    k, kernel
-        As in `PhotonMap.irradiance`.
-    seed
-        Of the samples within the pixel.
+    {settings}
     device
         A `Device`, its name or index; default the best there is.
     progress
@@ -84,12 +65,12 @@ def render(
     >>> pl.render(scene, pl.trace_photons(scene, count=10_000), camera="top", width=32, height=32)
     <Image 32 × 32, linear>
     """
-    settings = _check_settings(scene, photons, camera, width, height, samples, mode, k, kernel, seed)
+    told = _check_settings(scene, photons, camera, check_settings("render", settings))
     opened = open_device(device)
     native = None if photons is None else photons._native
     with follow_progress(progress) as callback:
-        pixels = _engine.render_image(opened._native, scene._native, native, settings, callback)
-    provenance = describe_origin(opened, scene, settings)
+        pixels = _engine.render_image(opened._native, scene._native, native, told, callback)
+    provenance = describe_origin(opened, scene, told)
     if photons is not None:
         provenance["photons"] = {"stored": len(photons), "emitted": photons.emitted, "settings": photons.settings}
         if photons.relaxation:
@@ -98,33 +79,13 @@ def render(
 
 
 def _check_settings(
-    scene: Scene,
-    photons: PhotonMap | None,
-    camera: str | Camera | None,
-    width: int,
-    height: int,
-    samples: int,
-    mode: str,
-    k: int | None,
-    kernel: str,
-    seed: int,
+    scene: Scene, photons: PhotonMap | None, camera: str | Camera | None, settings: dict[str, Any]
 ) -> dict[str, Any]:
     if not isinstance(scene, Scene):
         raise ArgumentError(f"scene must come from load_scene, not {scene!r}")
     if photons is not None and not isinstance(photons, PhotonMap):
         raise ArgumentError(f"photons must be a PhotonMap, not {photons!r}")
-    check_choice("mode", mode, MODES)
-    if photons is None and mode != "direct":
-        raise ArgumentError(f'mode="{mode}" needs a photon map; trace_photons makes one')
-    if k is None:
-        k = queries.choose_k(photons.settings if photons is not None else {})
-    return {
-        "camera": check_camera(scene, camera),
-        "width": check_count("width", width, 1, MAX_SIDE),
-        "height": check_count("height", height, 1, MAX_SIDE),
-        "samples": check_count("samples", samples, 1, MAX_SAMPLES),
-        "mode": mode,
-        "k": check_count("k", k, 1, queries.MAX_NEIGHBORS),
-        "kernel": check_choice("kernel", kernel, queries.KERNELS),
-        "seed": check_count("seed", seed, 0, MAX_SEED),
-    }
+    if photons is None and settings["mode"] != "direct":
+        raise ArgumentError(f'mode="{settings["mode"]}" needs a photon map; trace_photons makes one')
+    k = queries.find_k({} if photons is None else photons.settings, settings["k"])
+    return {**settings, "camera": check_camera(scene, camera), "k": k}

@@ -17,12 +17,12 @@ from photonloupe.checks import check_count, check_number
 from photonloupe.device_photons import DevicePhotons
 from photonloupe.errors import ArgumentError, FileFormatError, ScriptError
 from photonloupe.progress import ProgressLike, follow_progress
+from photonloupe.settings import list_settings
 
 SUFFIX = ".photon"
 # Limits of a run (docs/script.md): steps of unbounded loops a photon, photons that may run out of them, seconds a pass.
 LIMITS: dict[str, float] = {"fuel": 1_000_000, "exhausted": 1_000, "seconds": 60.0}
 MAX_FUEL = 2**31 - 1
-MAX_SEED = 2**32 - 1
 # A file is read no further than shows that it is too long.
 _MOST_BYTES = 1 << 20
 
@@ -247,7 +247,7 @@ def run_script(
     settings = {
         "values": check_values(compiled, {**(values or {}), **exposed}),
         "keep": bool(keep),
-        "seed": check_count("seed", seed, 0, MAX_SEED),
+        "seed": list_settings("trace")["seed"].check(seed),
         **_check_limits(limits),
     }
     photons.require_columns(compiled.columns)

@@ -4,59 +4,40 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Unpack
 
 from photonloupe import _engine
-from photonloupe.checks import check_choice, check_count
-from photonloupe.columns import MAX_PHOTONS, PATH_NAMES, PHOTON_COLUMNS
+from photonloupe.checks import check_choice
+from photonloupe.columns import PATH_NAMES, PHOTON_COLUMNS
 from photonloupe.device import Device, open_device
 from photonloupe.errors import ArgumentError
 from photonloupe.photons import PhotonMap
 from photonloupe.progress import ProgressLike, follow_progress
 from photonloupe.provenance import describe_origin
 from photonloupe.scene import Scene
-
-EMISSIONS = ("sobol", "random")
-STORES = ("caustic", "indirect", "all")
-# Where tracing gives up on a scene that stores nothing, too (METHODS section 1).
-MAX_EMITTED = 2**30
-MAX_BOUNCES = 64
-MAX_SEED = 2**32 - 1
+from photonloupe.setting_keywords import TraceKeywords
+from photonloupe.settings import check_settings, takes_settings
 
 
+@takes_settings("trace")
 def trace_photons(
     scene: Scene,
-    count: int = 200_000,
+    count: int | None = None,
     *,
-    seed: int = 1,
-    emitted: int | None = None,
-    emission: str = "sobol",
-    store: str = "caustic",
-    max_bounces: int = 16,
     columns: Sequence[str] | None = None,
     device: Device | int | str | None = None,
     progress: ProgressLike = None,
+    **settings: Unpack[TraceKeywords],
 ) -> PhotonMap:
     """Trace photons until enough are stored.
+
+    A larger map begins with the same paths, their flux divided by all emitted.
 
     Parameters
     ----------
     scene
         What `load_scene` returned.
-    count
-        Least number of stored photons; photons are emitted in whole blocks of 4,096 until it is reached, so a
-        larger map begins with the same paths (their flux is divided by all emitted).
-    seed
-        Every random number is a function of it, the emitted index, the bounce and the dimension, nothing else.
-    emitted
-        Number of photons to emit instead, whatever is stored.
-    emission
-        ``"sobol"`` (Owen-scrambled, worth about four times the photons on a smooth caustic) or ``"random"``.
-    store
-        ``"caustic"``: light that only mirrors and glass touched, L S+ D; ``"indirect"``: any bounce;
-        ``"all"``: direct light too.
-    max_bounces
-        Longest path, 1 to 64; what is cut off appears in the report as truncated.
+    {settings}
     columns
         Path columns to record now, such as ``["path_vertices"]``; by default none: they are recorded when first read.
     device
@@ -86,42 +67,25 @@ def trace_photons(
     >>> len(photons) >= 10_000
     True
     """
-    settings = _check_settings(scene, count, seed, emitted, emission, store, max_bounces, columns)
+    told = _check_settings(scene, columns, {**settings, "count": count})
     opened = open_device(device)
     with follow_progress(progress) as callback:
-        native = _engine.trace_photons(opened._native, scene._native, settings, callback)
+        native = _engine.trace_photons(opened._native, scene._native, told, callback)
     return PhotonMap(
         native,
         opened,
-        settings=settings,
+        settings=told,
         report=native.report,
-        provenance=describe_origin(opened, scene, settings),
+        provenance=describe_origin(opened, scene, told),
         scene=scene,
     )
 
 
-def _check_settings(
-    scene: Scene,
-    count: int,
-    seed: int,
-    emitted: int | None,
-    emission: str,
-    store: str,
-    max_bounces: int,
-    columns: Sequence[str] | None,
-) -> dict[str, Any]:
+def _check_settings(scene: Scene, columns: Sequence[str] | None, given: dict[str, Any]) -> dict[str, Any]:
     if not isinstance(scene, Scene):
         raise ArgumentError(f"scene must come from load_scene, not {scene!r}")
     known = {*PATH_NAMES, *(column.name for column in PHOTON_COLUMNS)}
     asked = [columns] if isinstance(columns, str) else list(columns or ())
     for name in asked:
         check_choice("columns", name, sorted(known))
-    return {
-        "count": check_count("count", count, 1, MAX_PHOTONS),
-        "emitted": 0 if emitted is None else check_count("emitted", emitted, 1, MAX_EMITTED),
-        "seed": check_count("seed", seed, 0, MAX_SEED),
-        "emission": check_choice("emission", emission, EMISSIONS),
-        "store": check_choice("store", store, STORES),
-        "max_bounces": check_count("max_bounces", max_bounces, 1, MAX_BOUNCES),
-        "paths": any(name in PATH_NAMES for name in asked),
-    }
+    return {**check_settings("trace", given), "paths": any(name in PATH_NAMES for name in asked)}

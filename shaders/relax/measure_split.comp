@@ -18,7 +18,7 @@
 
 layout(push_constant) uniform Push { DescribeSettings settings; };
 
-const uint LIST_SIZE = 1024u; // a power of two above the 998 neighbours and both ends
+const uint LIST_SIZE = 1024u; // a power of two above the most neighbours and both ends
 const uint SORT_TURNS = 10000u; // of the longest list and what follows
 const uint FEWEST_GAPS = 8u;  // on each side, or their evenness says nothing
 

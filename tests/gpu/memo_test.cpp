@@ -93,11 +93,14 @@ TEST_F(Memory, estimates_once) {
 TEST_F(Memory, renders_once) {
     const auto photons = trace();
     RenderSettings settings{.width = 16, .height = 16, .samples = 1};
-    const auto render = [&] { m_bench.render(m_scene, photons.get(), settings, {}); };
+    CameraChoice camera;
+    const auto render = [&] { m_bench.render(m_scene, photons.get(), camera, settings, {}); };
     run_script(*photons, 0.5);
     render();
     EXPECT_EQ(count(render), 0u);
     settings.samples = 2;
+    EXPECT_GT(count(render), 0u);
+    camera.placed.emplace();
     EXPECT_GT(count(render), 0u);
     run_script(*photons, 0.25);
     EXPECT_GT(count(render), 0u);

@@ -46,7 +46,7 @@ Results run_stages(gpu::Device& device) {
     results.irradiance =
         workbench.estimate_irradiance(*photons, points, normals, {.k = 20}, {}).read<std::uint32_t>(4 * QUERIES);
     results.image =
-        workbench.render(scene, photons.get(), {.width = 16, .height = 16, .samples = 1, .estimate = {.k = 20}}, {})
+        workbench.render(scene, photons.get(), {}, {.width = 16, .height = 16, .samples = 1, .estimate = {.k = 20}}, {})
             .rgb;
     return results;
 }

@@ -11,11 +11,12 @@ import pytest
 import photonloupe as pl
 from any_surfaces import FAR, KINDS, QUESTIONS, UP, ask_at_edges, ask_between_surfaces, ask_on_surfaces, build_map
 from conftest import find_scene
-from photonloupe.queries import KERNELS
+from photonloupe.settings import list_settings
 from raised_scenes import HEIGHTS, SLAB_HEIGHTS, WALL_X, WINDOWS, raise_receivers
 from surface_twin import check_irradiance, estimate_irradiance
 
 SMALL, LARGE = 5_000, 50_000
+KERNELS = list_settings("irradiance")["kernel"].choices
 K = 50
 # Along the axes the k of a query are the same photons in 32 bits as in 64; far away rounding chooses among them.
 ROUNDED = ("far away",)

@@ -169,6 +169,17 @@ def test_wrong_setting_is_refused_by_name(ring: pl.Scene, ring_map: pl.PhotonMap
         pl.render(ring, ring_map, **settings)
 
 
+def test_look_ends_after_its_bounces(ring: pl.Scene) -> None:
+    """The ring is a mirror: without a bounce nothing is seen in it, and the floor as before."""
+    none, some = (
+        np.asarray(pl.render(ring, camera="view", mode="direct", width=SIDE, height=SIDE, max_bounces=count))
+        for count in (0, 16)
+    )
+    differs = (none != some).any(axis=2)
+    assert 0.05 < differs.mean() < 0.5
+    assert (none[differs] <= some[differs]).all()
+
+
 def test_composite_needs_photons(ring: pl.Scene) -> None:
     with pytest.raises(pl.ArgumentError, match="trace_photons"):
         pl.render(ring)

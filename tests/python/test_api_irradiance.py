@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 
 import photonloupe as pl
 import twins
-from photonloupe.queries import KERNELS
+from photonloupe.settings import list_settings
 
+KERNELS = list_settings("irradiance")["kernel"].choices
 UP = np.array([0.0, 1.0, 0.0])
 # Distances are 32-bit in the engine: the smallest radius here is some 1e-2 of the scene.
 TOLERANCE = 2e-4

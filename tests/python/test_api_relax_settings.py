@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import photonloupe as pl
-from photonloupe.relax_settings import SEARCHES
+from photonloupe.settings import list_settings
 from relax_maps import COUNT, STEPS, build
 
 
@@ -43,11 +43,11 @@ def layered() -> pl.PhotonMap:
         ({"over_relaxation": "fast"}, "over_relaxation must be"),
         ({"limit": 0.0}, "limit must be from 1e-06 to 1e\\+06, not 0.0"),
         ({"limit": np.inf}, "limit must be from"),
-        ({"limit": "none"}, "limit must be a number"),
+        ({"limit": "little"}, "limit must be one of none, not 'little'"),
         ({"constraint_neighbors": 11}, "constraint_neighbors must be from 12 to 998, not 11"),
         ({"constraint_neighbors": 999}, "constraint_neighbors must be from 12"),
         ({"thresholds": (0.5,)}, "thresholds must be 2 numbers"),
-        ({"thresholds": (0.5, 0.5)}, "thresholds are both 0.5"),
+        ({"thresholds": (0.5, 0.5)}, "thresholds must be two different numbers, not both 0.5"),
         ({"thresholds": (0.5, np.nan)}, "thresholds must be from"),
         ({"thresholds": 0.5}, "thresholds must be"),
         ({"constraint": "parameter"}, 'constraint="parameter" needs parameters'),
@@ -118,7 +118,7 @@ def test_even_emission_needs_fewer_steps(ring: pl.Scene) -> None:
     assert pl.Relaxation(sobol).steps < pl.Relaxation(random).steps
 
 
-@pytest.mark.parametrize("search", SEARCHES)
+@pytest.mark.parametrize("search", list_settings("relax")["search"].choices)
 def test_every_search_moves_photons_apart(photons: pl.PhotonMap, search: str) -> None:
     moved = photons.relax(STEPS, descriptor="none", search=search)
     nearest = [np.median(each.neighbors(np.arange(COUNT), 1)[1]) for each in (photons, moved)]

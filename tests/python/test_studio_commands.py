@@ -104,7 +104,7 @@ def press_toggle(name: str) -> Callable[[pl.Studio], None]:
 
 def edit_relaxation(studio: pl.Studio) -> None:
     show_panel(studio, "Relaxation")
-    drag_within(studio, "Relaxation/Neighbors", (0.5, 0.5), (0.2, 0.5))
+    drag_within(studio, "Relaxation/neighbors", (0.5, 0.5), (0.2, 0.5))
 
 
 def edit_histogram(studio: pl.Studio) -> None:
@@ -124,8 +124,8 @@ GESTURES: dict[str, Callable[[pl.Studio], None]] = {
     "pin": lambda studio: studio.click(*find_place(studio, "View/Picture", 0.5, 0.6)),
     "slider": lambda studio: drag_slider(studio, "Script/zoom", 0.8),
     "point size": lambda studio: drag_within(studio, "View/Size", (0.1, 0.5), (0.8, 0.5)),
-    "loupe size": lambda studio: drag_within(studio, "Loupe/k", (0.8, 0.5), (0.3, 0.5)),
-    "loupe space": lambda studio: choose(studio, "Loupe/Space", "constrained"),
+    "loupe k": lambda studio: drag_within(studio, "Loupe/k", (0.8, 0.5), (0.3, 0.5)),
+    "loupe space": lambda studio: choose(studio, "Loupe/space", "constrained"),
     "drift": press_toggle("Loupe/Drift"),
     "brush": lambda studio: drag_within(studio, "Parallel coordinates/x", (0.5, 0.2), (0.5, 0.5)),
     "plotted photons": lambda studio: choose(studio, "Parallel coordinates/Source", "selection"),

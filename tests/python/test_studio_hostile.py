@@ -94,7 +94,7 @@ HOSTILE: list[tuple[str, Any, str]] = [
     ("named", {"a": [2**32]}, "named"),
     ("named", {"x" * 300: []}, "named"),
     ("named", {str(i): [] for i in range(300)}, "named"),
-    ("version", 2, "version"),
+    ("version", 3, "version"),
     ("format", "something else", "session"),
 ]
 

@@ -121,7 +121,7 @@ def test_wheel_with_ctrl_moves_the_camera_and_not_the_loupe() -> None:
 
 def test_space_is_chosen_from_the_list() -> None:
     with open_ring(TRAJECTORY) as studio:
-        choose(studio, "Loupe/Space", "parameter")
+        choose(studio, "Loupe/space", "parameter")
         assert read_state(studio)["loupe"]["space"] == "parameter"
 
 

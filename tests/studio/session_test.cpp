@@ -85,7 +85,7 @@ TEST(Session, absent_fields_keep_their_defaults) {
         studio::read_state(R"({"format": "photonloupe session", "version": 1, "loupe": {"k": 7}})", {});
     EXPECT_EQ(state.loupe.k, 7u);
     EXPECT_EQ(state.loupe.space, studio::LoupeState{}.space);
-    EXPECT_EQ(state.trace.photons, studio::TraceState{}.photons);
+    EXPECT_EQ(state.trace.count, studio::TraceState{}.count);
     EXPECT_EQ(state.selection, nullptr);
 }
 
@@ -136,6 +136,23 @@ TEST(Session, refusals_name_the_field) {
         EXPECT_NE(find_refusal(session.dump()).find(name), std::string::npos)
             << place << ": " << find_refusal(session.dump());
     }
+}
+
+TEST(Session, first_version_is_read) {
+    const studio::StudioState state = studio::read_state(R"({"format": "photonloupe session", "version": 1,
+        "trace": {"photons": 7}, "image": {"k": 9, "samples": 2},
+        "relax": {"choices": {"steps": 4, "beta": 2, "has_auto_beta": true, "limit": 0, "thresholds": [0, 0]},
+                  "used": {"beta": 2, "has_auto_beta": false, "limit": 0.5, "thresholds": [1, 2]}}})",
+                                                         {});
+    EXPECT_EQ(state.trace.count, 7u);
+    EXPECT_EQ(state.image.render.estimate.k, 9u);
+    EXPECT_EQ(state.relax.choices.steps, 4u);
+    EXPECT_EQ(state.relax.choices.beta, std::nullopt);
+    EXPECT_EQ(state.relax.choices.limit, std::nullopt);
+    EXPECT_EQ(state.relax.choices.thresholds, std::nullopt);
+    EXPECT_EQ(state.relax.used.beta, 2.0);
+    EXPECT_EQ(state.relax.used.limit, 0.5);
+    EXPECT_EQ(state.relax.used.thresholds, (std::array{1.0, 2.0}));
 }
 
 TEST(Session, script_with_any_bytes_is_written_as_text) {

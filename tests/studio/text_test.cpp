@@ -57,7 +57,7 @@ TEST(PythonScript, tells_the_steps_that_were_made) {
     StudioState state;
     state.trace.scene = "/a.gltf";
     state.relax.made = 3;
-    state.relax.used.limit = 0;
+    state.relax.used.limit.reset();
     const std::string text = write_python(state, {});
     EXPECT_NE(text.find("for _ in range(3):\n    relaxation.step()"), std::string::npos) << text;
     EXPECT_NE(text.find("limit=None"), std::string::npos);

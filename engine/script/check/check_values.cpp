@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "photons/limits.h"
 #include "script/builtins.h"
 #include "script/check/evaluate_constant.h"
 #include "script/check/format_number.h"
@@ -35,7 +36,7 @@ std::optional<Bounds> find_bounds(const Builtin& builtin, Argument argument) {
         return builtin.effect == Effect::reads_photon ? Bounds{codes::BAD_DIMENSION, "a dimension", 0, 15}
                                                       : Bounds{codes::BAD_DIMENSION, "a parameter's dimension", 3, 15};
     case Argument::uniform_count:
-        return Bounds{codes::COUNT_OUTSIDE, "a number of neighbors", 1, 1000};
+        return Bounds{codes::COUNT_OUTSIDE, "a number of neighbors", 1, MOST_NEIGHBORS};
     case Argument::bin_count:
         return Bounds{codes::COUNT_OUTSIDE, "a number of bins", 1, 4096};
     case Argument::item:
@@ -62,7 +63,7 @@ private:
     void check_index(const Expression& expression, const Expression& index) {
         const bool is_list = expression.kind == Kind::list_item;
         const std::uint32_t variable = is_list ? expression.operands[0].variable : expression.variable;
-        const double size = is_list ? 1000 : m_program.variables[variable].array_size;
+        const double size = is_list ? MOST_NEIGHBORS : m_program.variables[variable].array_size;
         const std::optional<double> value = evaluate_constant(m_program, index);
         if (!value || !check_whole(*value, index.span, "an index"))
             return;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "photons/limits.h"
 #include "script/builtins.h"
 #include "script/check/evaluate_constant.h"
 
@@ -43,7 +44,7 @@ std::optional<Interval> IntervalFinder::find(const Expression& expression, int d
     case Kind::convert:
         return find(expression.operands[0], depth + 1);
     case Kind::list_length:
-        return Interval{0, MAX_NEIGHBORS};
+        return Interval{0, MOST_NEIGHBORS};
     case Kind::unary:
         if (const auto value = find(expression.operands[0], depth + 1);
             value && expression.operation == Operator::negate)

@@ -18,7 +18,6 @@ struct Interval {
 // Paths have this many vertices at most when their loops are counted; traced ones have 64 bounces. (A user's may be
 // longer: such a loop still ends.)
 constexpr double MAX_PATH_VERTICES = 66;
-constexpr double MAX_NEIGHBORS = 1000;
 
 class IntervalFinder {
 public:

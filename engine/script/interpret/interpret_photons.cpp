@@ -158,7 +158,7 @@ std::vector<std::int32_t> Interpreter::find_neighbors(const Expression& expressi
         k = evaluate_real(operands[1]);
     const float beta = operands.size() > 2 ? evaluate_real(operands[2]) : 0.0f;
     const bool is_constrained = id == BuiltinId::get_constrained_knn;
-    const bool is_valid = k >= 1 && k <= MOST_NEIGHBORS && k == std::trunc(k) && (!is_constrained || beta >= 0);
+    const bool is_valid = k >= 1 && k <= float{MOST_NEIGHBORS} && k == std::trunc(k) && (!is_constrained || beta >= 0);
     if (!is_valid)
         fault(Fault::query, expression);
     if (!is_valid || photon == m_photons.count)

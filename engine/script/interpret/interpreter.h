@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/progress.h"
+#include "photons/limits.h"
 #include "script/interpret/host_photons.h"
 #include "script/interpret/lanes.h"
 #include "script/interpret/run_outputs.h"
@@ -17,8 +18,6 @@
 #include "script/plan/plan.h"
 
 namespace photonloupe::script {
-
-constexpr float MOST_NEIGHBORS = 1000;
 
 class Interpreter {
 public:

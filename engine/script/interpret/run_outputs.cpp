@@ -36,7 +36,7 @@ const char* describe_fault(Fault kind) {
     case Fault::declaration:
         return "a parameter is declared with a gap before its dimension, or with bounds that do not ascend";
     case Fault::query:
-        return "k is not 1 to 1,000, or beta is negative";
+        return "k is none that a query takes, or beta is negative";
     default:
         return "a histogram's bounds do not ascend, its bins are not 1 to 4,096, or there are more than 256 histograms";
     }

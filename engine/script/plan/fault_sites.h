@@ -22,7 +22,7 @@ enum class Fault : std::uint8_t {
     does_not_fit,    // int, floor, ceil, round of NaN, inf or beyond 32 bits
     no_value,        // a function ended without return
     declaration,     // a dimension that leaves a gap or is not 3–15, bounds that are not ascending or not finite
-    query,           // k that is not 1–1000, β that is negative or NaN
+    query,           // k that no query takes, β that is negative or NaN
     histogram_range, // histogram whose bounds are not ascending or not finite, or whose bins are not 1–4096
 };
 

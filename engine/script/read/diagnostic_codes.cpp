@@ -30,7 +30,7 @@ constexpr DiagnosticCode TABLE[] = {
     {codes::AXIS_OUTSIDE, "An axis or channel other than 0, 1 and 2."},
     {codes::NEGATIVE_ID, "A negative photon or vertex."},
     {codes::NOT_WHOLE, "An index, photon, vertex, axis, dimension or count that is not a whole number."},
-    {codes::COUNT_OUTSIDE, "A number of neighbors outside 1-1,000 or of bins outside 1-4,096."},
+    {codes::COUNT_OUTSIDE, "A number of neighbors or of bins that is out of its range."},
     {codes::NOT_UNIFORM, "An argument that must be the same for all photons depends on the photon."},
     {codes::BAD_RANGE, "A range out of order; an exposed variable without a default, or with one outside its range."},
     {codes::EXPOSED_INSIDE, "`expose` inside a loop or function."},

@@ -78,7 +78,7 @@ void PassRunner::fill_uniforms(Work& work) const {
         float k = DEFAULT_NEIGHBORS;
         if (query.query->count)
             k = to_real(*query.query->count, work.interpreter.evaluate_uniform(*query.query->count));
-        const bool is_valid = k >= 1 && k <= MOST_NEIGHBORS && k == std::trunc(k);
+        const bool is_valid = k >= 1 && k <= float{MOST_NEIGHBORS} && k == std::trunc(k);
         words[query.first_word + 1] = is_valid ? static_cast<std::uint32_t>(k) : 0u;
     }
 }

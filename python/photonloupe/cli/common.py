@@ -49,13 +49,6 @@ def add_device_option(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--device", default="auto", metavar="D", help="index or part of a name; default: the best")
 
 
-def add_photon_options(parser: argparse.ArgumentParser, photons: int | None) -> None:
-    """Add what decides which photons are traced."""
-    there = "" if photons is None else f"; default {photons:,}"
-    parser.add_argument("--photons", type=int, default=photons, metavar="N", help=f"least number stored{there}")
-    parser.add_argument("--seed", type=int, default=1, metavar="N", help="default 1")
-
-
 def choose_progress() -> bool:
     """Return whether a bar helps: only where someone watches."""
     return sys.stderr.isatty()

@@ -14,7 +14,6 @@ from photonloupe.cli.common import (
     QUALITIES,
     Stopwatch,
     add_device_option,
-    add_photon_options,
     choose_progress,
     print_result,
 )
@@ -23,10 +22,8 @@ from photonloupe.device import open_device
 from photonloupe.errors import ArgumentError
 from photonloupe.image import MAX_EXPOSURE, check_image_path
 from photonloupe.progress import ProgressLike
-from photonloupe.queries import KERNELS
-from photonloupe.relax_settings import MAX_STEPS
-from photonloupe.rendering import MODES
 from photonloupe.scripting import check_values
+from photonloupe.settings import add_setting_options, list_settings, read_setting_options
 
 LOG = logging.getLogger("photonloupe")
 
@@ -38,7 +35,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the verb's options."""
     parser.add_argument("scene", metavar="SCENE", help=".gltf or .glb")
     parser.add_argument("-o", "--output", required=True, metavar="FILE", help=".exr or .png")
-    add_photon_options(parser, None)
+    photons = list_settings("trace")["count"]
+    parser.add_argument(photons.option, type=photons.parse, metavar="N", help=photons.doc)
     parser.add_argument(
         "--map", metavar="MAP", help="a .zarr of the scene, instead of tracing; traced, scripted or relaxed"
     )
@@ -52,13 +50,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         metavar="STEPS",
         help="relax the photons, constrained by the script's parameters, else in world space; default STEPS: the best",
     )
-    parser.add_argument("--k", type=int, metavar="N", help="photons in an estimate, 1 to 1000")
-    parser.add_argument("--kernel", choices=KERNELS, default=KERNELS[0], help=f"of an estimate; default {KERNELS[0]}")
-    parser.add_argument("--width", type=int, default=512, metavar="N", help="pixels; default 512")
-    parser.add_argument("--height", type=int, default=512, metavar="N", help="pixels; default 512")
-    parser.add_argument("--samples", type=int, metavar="N", help="per pixel")
+    add_setting_options(parser, "render")
     parser.add_argument("--camera", metavar="NAME", help="default: the scene's first")
-    parser.add_argument("--mode", choices=MODES, default="composite", help="default composite")
     parser.add_argument(
         "--quality",
         choices=tuple(QUALITIES),
@@ -75,7 +68,7 @@ def _read_script(arguments: argparse.Namespace) -> tuple[pl.Script | None, dict[
     if arguments.script is None:
         if values:
             raise ArgumentError("--set gives a value to a script; name it with --script")
-        if arguments.mode == "false-color" and arguments.map is None:
+        if read_setting_options(arguments, "render").get("mode") == "false-color" and arguments.map is None:
             raise ArgumentError("--mode false-color shows the colors a script gives; name it with --script")
         return None, {}
     script = pl.compile_script(Path(arguments.script))
@@ -89,7 +82,7 @@ def _find_photons(
     """Load the map that was named, or trace one."""
     if arguments.map is None:
         count = QUALITIES[arguments.quality].photons if arguments.photons is None else arguments.photons
-        return pl.trace_photons(scene, count, seed=arguments.seed, device=device, progress=progress)
+        return pl.trace_photons(scene, count, seed=getattr(arguments, "seed", None), device=device, progress=progress)
     photons = pl.load_photons(arguments.map, device=device)
     if photons.provenance.get("scene_hash", scene.hash) != scene.hash:
         LOG.warning(f"{arguments.map} was not traced in {arguments.scene} as it is now; its light may not fit")
@@ -103,14 +96,16 @@ def run(arguments: argparse.Namespace) -> int:
     # Given without a number it is True.
     steps = None if arguments.relax is True else arguments.relax
     if steps is not None:
-        check_count("--relax", steps, 0, MAX_STEPS)
+        check_count("--relax", steps, *list_settings("relax")["steps"].limits)
+    quality = QUALITIES[arguments.quality]
+    settings = {"samples": quality.samples, "k": quality.k, **read_setting_options(arguments, "render")}
+    is_direct = settings.get("mode") == "direct"
     for option in ("relax", "script", "map"):
-        if getattr(arguments, option) is not None and arguments.mode == "direct":
+        if getattr(arguments, option) is not None and is_direct:
             raise ArgumentError(f"--mode direct uses no photons; leave --{option} out, or choose another mode")
     if arguments.map is not None and arguments.photons is not None:
         raise ArgumentError("--map brings its photons; leave --photons out, or the map")
     script, values = _read_script(arguments)
-    quality = QUALITIES[arguments.quality]
     watch = Stopwatch()
     progress = choose_progress()
     with watch.measure("load"):
@@ -118,7 +113,7 @@ def run(arguments: argparse.Namespace) -> int:
     with watch.measure("device"):
         device = open_device(arguments.device)
     photons = None
-    if arguments.mode != "direct":
+    if not is_direct:
         with watch.measure("trace" if arguments.map is None else "load"):
             photons = _find_photons(arguments, scene, device, progress)
     if photons is not None and script is not None:
@@ -132,15 +127,9 @@ def run(arguments: argparse.Namespace) -> int:
             scene,
             photons,
             camera=arguments.camera,
-            width=arguments.width,
-            height=arguments.height,
-            samples=quality.samples if arguments.samples is None else arguments.samples,
-            mode=arguments.mode,
-            k=quality.k if arguments.k is None else arguments.k,
-            kernel=arguments.kernel,
-            seed=arguments.seed,
             device=device,
             progress=progress,
+            **settings,
         )
     with watch.measure("save"):
         image.save(output, exposure=exposure)

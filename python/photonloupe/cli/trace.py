@@ -10,14 +10,13 @@ from photonloupe.cli.common import (
     EXIT_OK,
     Stopwatch,
     add_device_option,
-    add_photon_options,
     choose_progress,
     print_result,
 )
 from photonloupe.columns import PATH_NAMES
 from photonloupe.device import open_device
+from photonloupe.settings import add_setting_options, read_setting_options
 from photonloupe.storage import check_map_path
-from photonloupe.tracing import EMISSIONS, STORES
 
 SUMMARY = "trace a scene and write a photon map"
 DESCRIPTION = "Trace photons through a glTF scene and write them with their columns as a Zarr v3 folder."
@@ -27,17 +26,13 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Add the verb's options."""
     parser.add_argument("scene", metavar="SCENE", help=".gltf or .glb")
     parser.add_argument("-o", "--output", required=True, metavar="MAP", help="the .zarr folder to write")
-    add_photon_options(parser, 200_000)
-    parser.add_argument("--emitted", type=int, metavar="N", help="number emitted, instead of --photons")
+    add_setting_options(parser, "trace")
     parser.add_argument(
         "--columns",
         default="",
         metavar="A,B",
         help=f"paths to record: 'paths' for all, or any of {', '.join(PATH_NAMES)}; default none",
     )
-    parser.add_argument("--store", choices=STORES, default="caustic", help="default caustic")
-    parser.add_argument("--emission", choices=EMISSIONS, default="sobol", help="default sobol")
-    parser.add_argument("--max-bounces", type=int, default=16, metavar="N", help="1 to 64; default 16")
     add_device_option(parser)
 
 
@@ -57,15 +52,10 @@ def run(arguments: argparse.Namespace) -> int:
     with watch.measure("trace"):
         photons = pl.trace_photons(
             scene,
-            arguments.photons,
-            seed=arguments.seed,
-            emitted=arguments.emitted,
-            emission=arguments.emission,
-            store=arguments.store,
-            max_bounces=arguments.max_bounces,
             columns=_parse_columns(arguments.columns),
             device=device,
             progress=choose_progress(),
+            **read_setting_options(arguments, "trace"),
         )
     with watch.measure("save"):
         photons.save(arguments.output)

@@ -11,12 +11,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from photonloupe import _engine
-from photonloupe.checks import check_choice, check_count, check_vectors
+from photonloupe.checks import check_count, check_vectors
 from photonloupe.errors import ArgumentError
-from photonloupe.nearest import DEFAULT_BETA, MAX_NEIGHBORS, SPACES, read_ranges
+from photonloupe.nearest import check_look, read_ranges
 from photonloupe.photons import PhotonMap
 from photonloupe.progress import ProgressLike, follow_progress
 from photonloupe.relax_settings import check_beta
+from photonloupe.settings import list_settings, takes_settings
 
 Floats = NDArray[np.float32]
 
@@ -107,12 +108,13 @@ class LoupeView:
     paths: tuple[PathLine, ...]
 
 
+@takes_settings("loupe")
 def loupe(
     photons: PhotonMap,
     point: ArrayLike | int,
-    k: int = 250,
-    space: str = "world",
-    beta: float | str = DEFAULT_BETA,
+    k: int | None = None,
+    space: str | None = None,
+    beta: float | str | None = None,
     center: int | None = None,
     ranges: Mapping[int | str, tuple[float, float]] | None = None,
     *,
@@ -128,13 +130,7 @@ def loupe(
         The map; its paths are recorded now, where it can have them.
     point
         (3,) world, m, or the id of a photon, which then is not its own neighbor.
-    k
-        How many photons, 1 to 1000.
-    space
-        ``"world"``; ``"parameter"``: nearest to the center in parameter space; ``"constrained"``: nearest in the world
-        among the center's layer, as `PhotonMap.neighbors` has it.
-    beta
-        β of the layer, or ``"auto"`` for `optimal_beta`.
+    {settings}
     center
         Constrained space around a point: the layer is locked to that of this photon (figure 7 i).
     ranges
@@ -166,15 +162,15 @@ def loupe(
     """
     if not isinstance(photons, PhotonMap):
         raise ArgumentError(f"photons must be a PhotonMap, not {photons!r}")
-    check_choice("space", space, SPACES)
+    k, space, reach = check_look(k, space, beta)
     if space != "constrained" and (center is not None or ranges is not None):
         raise ArgumentError('center and ranges lock the layer of space="constrained"')
     if space != "world" and "parameters" not in photons.recorded:
         raise ArgumentError(f'space="{space}" needs parameters; set_parameters() or a script sets them')
-    query = {"k": check_count("k", k, 1, MAX_NEIGHBORS), "space": space, "beta": 0.0}
+    query = {"k": k, "space": space, "beta": 0.0}
     query.update(_check_place(photons, point, normal))
-    query.update(_check_layer(photons, query["photon"] is not None, space, beta, center, ranges, progress))
-    line_count = check_count("paths", paths, 0, MAX_NEIGHBORS)
+    query.update(_check_layer(photons, query["photon"] is not None, space, reach, center, ranges, progress))
+    line_count = check_count("paths", paths, 0, list_settings("loupe")["k"].limits[1])
     if line_count and not photons.can_have_paths:
         raise ArgumentError("this map has no paths and cannot record them; give them to from_arrays")
     if photons.can_have_paths:

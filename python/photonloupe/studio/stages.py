@@ -85,13 +85,10 @@ class Stages:
             self.scene = load_scene(path)
         photons = trace_photons(
             self.scene,
-            settings["photons"],
-            seed=settings["seed"],
-            emission=settings["emission"],
-            store=settings["store"],
             columns=PATH_NAMES,
             device=self._device,
             progress=progress,
+            **settings["settings"],
         )
         self._take_photons(photons)
 
@@ -147,10 +144,9 @@ class Stages:
 
     def _relax(self, settings: dict[str, Any], progress: Progress) -> None:
         assert self.photons is not None
-        made = settings.pop("made")
-        key = settings.pop("settings_key")
+        made, key = settings["made"], settings["settings_key"]
         if self._relaxation is None or key != self._relaxation_key or self._relaxation.step_count > made:
-            self._relaxation = Relaxation(self.photons, progress=progress, **settings)
+            self._relaxation = Relaxation(self.photons, progress=progress, **settings["settings"])
             self._relaxation_key = key
             self._rows = []
         relaxation = self._relaxation
@@ -192,10 +188,9 @@ class Stages:
             "camera": looks,
             "width": RENDER_SIZE[0],
             "height": RENDER_SIZE[1],
-            "samples": settings["samples"],
-            "k": settings["k"],
             "device": self._device,
             "progress": progress,
+            **settings["settings"],
         }
         self.image = render(self.scene, photons, **common)
         colors = None

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// Binds the tables of settings: what each stage can be told, and what automatic settings stand for.
+#include "settings.h"
+
+#include "inspect/settings.h"
+
+namespace photonloupe::bindings {
+namespace {
+
+SettingValue read_value(nb::handle given) {
+    if (given.is_none())
+        return {};
+    if (nb::isinstance<nb::bool_>(given))
+        return nb::cast<bool>(given);
+    if (nb::isinstance<nb::int_>(given) || nb::isinstance<nb::float_>(given))
+        return nb::cast<double>(given);
+    if (nb::isinstance<nb::str>(given))
+        return nb::cast<std::string>(given);
+    return nb::cast<std::vector<double>>(given);
+}
+
+nb::object write_value(const Setting& setting) {
+    const SettingValue value = setting.read(setting);
+    if (std::holds_alternative<std::monostate>(value))
+        return nb::none();
+    if (setting.kind == SettingKind::count)
+        return nb::int_(static_cast<std::uint64_t>(std::get<double>(value)));
+    return std::visit(
+        [](const auto& held) -> nb::object {
+            if constexpr (std::is_same_v<std::decay_t<decltype(held)>, std::monostate>)
+                return nb::none();
+            else
+                return nb::cast(held);
+        },
+        value);
+}
+
+nb::dict write_rows(const std::vector<Setting>& rows) {
+    nb::dict values;
+    for (const Setting& setting : rows)
+        values[setting.about.name.c_str()] = write_value(setting);
+    return values;
+}
+
+nb::list describe_rows(const std::vector<Setting>& rows) {
+    static constexpr const char* KINDS[] = {"flag", "count", "number", "numbers", "choice"};
+    nb::list list;
+    for (const Setting& setting : rows) {
+        const SettingInfo& about = setting.about;
+        nb::dict row;
+        row["name"] = about.name;
+        row["kind"] = KINDS[static_cast<std::size_t>(setting.kind)];
+        row["default"] = write_value(setting);
+        row["doc"] = about.doc;
+        row["low"] = about.range.low;
+        row["high"] = about.range.high;
+        row["choices"] = about.choices;
+        row["width"] = setting.width;
+        row["empty"] = about.empty;
+        row["automatic"] = about.automatic;
+        row["alias"] = about.alias;
+        row["unit"] = about.unit;
+        row["spreads"] = about.spreads;
+        row["differs"] = about.differs;
+        list.append(row);
+    }
+    return list;
+}
+
+// Hands a stage's default settings on.
+template <class Use>
+auto with_stage(const std::string& stage, const Use& use) {
+    if (stage == "trace")
+        return use(TraceSettings{});
+    if (stage == "relax")
+        return use(RelaxSettings{});
+    if (stage == "irradiance")
+        return use(EstimateSettings{});
+    if (stage == "render")
+        return use(RenderSettings{});
+    if (stage == "loupe")
+        return use(inspect::LoupeSettings{});
+    throw Error("stage is '" + stage + "'; it must be trace, relax, irradiance, render or loupe");
+}
+
+// The emission of a map by its name; of photons that came from elsewhere there is none.
+std::optional<Emission> parse_emission(const std::optional<std::string>& name) {
+    if (!name)
+        return std::nullopt;
+    TraceSettings origin;
+    write_setting(find_setting(list_settings(origin), "emission"), *name);
+    return origin.emission;
+}
+
+} // namespace
+
+void read_rows(const std::vector<Setting>& rows, const nb::dict& given) {
+    for (const Setting& setting : rows)
+        if (given.contains(setting.about.name.c_str()))
+            write_setting(setting, read_value(given[setting.about.name.c_str()]));
+}
+
+void bind_settings(nb::module_& module) {
+    module.def(
+        "describe_settings",
+        [](const std::string& stage) {
+            return with_stage(stage, [](auto settings) { return describe_rows(list_settings(settings)); });
+        },
+        nb::arg("stage"), "Every setting of trace, relax, irradiance, render or loupe: name, kind, default, range …");
+    module.def(
+        "complete_relaxation",
+        [](const nb::dict& given, const std::optional<std::string>& emission, bool has_parameters) {
+            RelaxSettings settings =
+                complete_settings(read_settings<RelaxSettings>(given), parse_emission(emission), has_parameters);
+            return write_rows(list_settings(settings));
+        },
+        nb::arg("given"), nb::arg("emission").none(), nb::arg("has_parameters"),
+        "All settings of a relaxation, what is automatic filled in but for beta.");
+    module.def(
+        "choose_k",
+        [](const std::optional<std::string>& emission) {
+            return choose_k(EstimateSettings{}, parse_emission(emission));
+        },
+        nb::arg("emission").none(), "How many photons an estimate gathers where nothing is said.");
+}
+
+} // namespace photonloupe::bindings

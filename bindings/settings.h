@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Settings from Python's dictionaries: what is not given keeps its default, what may not be is refused by name.
+#pragma once
+
+#include "binding.h"
+
+#include "core/settings.h"
+
+namespace photonloupe::bindings {
+
+void read_rows(const std::vector<Setting>& rows, const nb::dict& given);
+
+template <class Settings>
+Settings read_settings(const nb::dict& given) {
+    Settings settings;
+    read_rows(list_settings(settings), given);
+    return settings;
+}
+
+} // namespace photonloupe::bindings
