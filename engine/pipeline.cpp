@@ -17,6 +17,8 @@
 namespace photonloupe {
 namespace {
 
+constexpr std::uint64_t MOST_REMEMBERED_PIXELS = 1ull << 22; // of a picture that is kept: 48 MiB
+
 std::vector<ParameterAxis> list_axes(const std::vector<script::DeclaredParameter>& declared) {
     std::vector<ParameterAxis> axes;
     for (const script::DeclaredParameter& parameter : declared)
@@ -310,6 +312,8 @@ Image Workbench::render_voronoi(const Scene& scene, Photons& photons, const Came
 
 Image Workbench::render(const Scene& scene, Photons* photons, const CameraChoice& camera,
                         const RenderSettings& settings, const Progress& progress) {
+    if (std::uint64_t{settings.width} * settings.height > MOST_REMEMBERED_PIXELS)
+        return render_anew(scene, photons, camera, settings, progress);
     return *m_image.find(make_key(scene, photons, camera, settings),
                          [&] { return render_anew(scene, photons, camera, settings, progress); });
 }

@@ -145,8 +145,9 @@ def test_key_copies_the_program() -> None:
         assert "clipboard" in studio.message
 
 
-def test_split_at_default_program_names_the_settings() -> None:
+def test_program_names_the_settings_that_differ_from_the_defaults() -> None:
     with open_ring() as studio:
+        change_state(studio, trace={"seed": 7})
         program = studio.python()
-        assert f"seed={read_state(studio)['trace']['seed']}" in program
-        assert 'store="caustic"' in program
+        assert f"trace_photons(scene, count={read_state(studio)['trace']['photons']}, seed=7)" in program
+        assert "store=" not in program
