@@ -152,7 +152,12 @@ nb::tuple find_near(OpenDevice& open, Photons& photons, std::optional<Points> po
 
 void give_parameters(OpenDevice& open, Photons& photons, const Values& values, const Axes& axes) {
     nb::gil_scoped_release release; // who builds a tree meanwhile may report to Python
-    set_parameters(open.device, photons, {values.data(), values.data() + values.size()}, read_axes(axes));
+    std::optional<ParameterColumns> made;
+    if (std::vector<ParameterAxis> read = read_axes(axes); !read.empty())
+        made = make_parameters(open.device, {values.data(), values.data() + values.size()}, std::move(read));
+    const std::lock_guard lock(*photons.mutex);
+    nb::gil_scoped_acquire acquire; // columns are read under it
+    take_parameters(photons, std::move(made));
 }
 
 } // namespace
@@ -177,7 +182,8 @@ void bind_photons(nb::module_& module) {
         [](OpenDevice& open, const Photons& photons, const Ids& ids) {
             return select_photons(open.device, photons, {ids.data(), ids.size()});
         },
-        nb::arg("device"), nb::arg("photons"), nb::arg("ids"), nb::keep_alive<0, 1>(), "Some photons, all columns.");
+        nb::arg("device"), nb::arg("photons"), nb::arg("ids"), nb::keep_alive<0, 1>(),
+        nb::call_guard<nb::gil_scoped_release>(), "Some photons, all columns.");
     module.def(
         "find_signature",
         [](const Photons& photons, const std::vector<std::uint8_t>& interactions) {

@@ -23,6 +23,7 @@ std::shared_ptr<Photons> share_photons(const Photons& photons) {
 
 std::shared_ptr<Photons> select_photons(gpu::Device& device, const Photons& photons,
                                         std::span<const std::uint32_t> ids) {
+    const std::lock_guard lock(*photons.mutex);
     auto some = std::make_shared<Photons>();
     some->map = select_photons(device, photons.map, ids);
     some->report = photons.report;
@@ -37,12 +38,17 @@ std::shared_ptr<Photons> select_photons(gpu::Device& device, const Photons& phot
     return some;
 }
 
-void set_parameters(gpu::Device& device, Photons& photons, std::vector<float> values, std::vector<ParameterAxis> axes) {
-    const std::lock_guard lock(*photons.mutex);
+void take_parameters(Photons& photons, std::optional<ParameterColumns> parameters) {
     photons.trees = {photons.trees.positions, {}, {}, {}, {}};
-    photons.map.parameters.reset();
+    photons.map.parameters = std::move(parameters);
+}
+
+void set_parameters(gpu::Device& device, Photons& photons, std::vector<float> values, std::vector<ParameterAxis> axes) {
+    std::optional<ParameterColumns> parameters;
     if (!axes.empty())
-        photons.map.parameters = make_parameters(device, std::move(values), std::move(axes));
+        parameters = make_parameters(device, std::move(values), std::move(axes));
+    const std::lock_guard lock(*photons.mutex);
+    take_parameters(photons, std::move(parameters));
 }
 
 std::vector<float> read_traced_positions(const Photons& photons) {

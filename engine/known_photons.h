@@ -49,6 +49,9 @@ std::shared_ptr<Photons> share_photons(const Photons& photons);
 std::shared_ptr<Photons> select_photons(gpu::Device& device, const Photons& photons,
                                         std::span<const std::uint32_t> ids);
 
+// Replaces the parameters, whose trees go; the caller holds the photons' mutex.
+void take_parameters(Photons& photons, std::optional<ParameterColumns> parameters);
+
 // Values of all photons, a row each; without axes it has none any more.
 void set_parameters(gpu::Device& device, Photons& photons, std::vector<float> values, std::vector<ParameterAxis> axes);
 

@@ -43,6 +43,11 @@ void take_script_columns(Photons& photons, const Photons& scripted) {
     photons.trees = scripted.trees;
 }
 
+bool has_tree(const Photons& photons) {
+    const std::lock_guard lock(*photons.mutex);
+    return photons.trees.positions != nullptr;
+}
+
 // Compiles what a tree of so many photons needs.
 void expect_tree(gpu::Device& device, std::uint64_t photon_count) {
     device.compile_ahead(TreeKernels(0, device.limits().subgroup_size).list(photon_count));
@@ -236,6 +241,7 @@ script::ScriptRun Workbench::run_anew(Photons& photons, const script::CompiledSc
 
 std::shared_ptr<Photons> Workbench::take_relaxed(const Photons& source, RelaxedColumns columns) {
     auto photons = std::make_shared<Photons>();
+    const std::lock_guard lock(*source.mutex);
     PhotonMap before = share_map(source.map);
     photons->map = std::move(columns.map);
     photons->map.paths = std::move(before.paths);
@@ -284,6 +290,8 @@ RelaxedRun Workbench::relax_photons(Photons& photons, const Scene* scene, const 
     RelaxedRun run = *relaxed;
     run.photons = share_photons(*relaxed->photons);
     run.photons->made_by = relaxed;
+    const std::lock_guard lock(*photons.mutex);
+    run.photons->map.paths = share_map(photons.map).paths; // they may have been recorded since
     return run;
 }
 
@@ -334,7 +342,7 @@ Image Workbench::render_anew(const Scene& scene, Photons* photons, const CameraC
         return render_voronoi(scene, *photons, camera, settings, progress);
     const bool needs_tree = settings.mode != RenderMode::photons;
     m_device.compile_ahead(list_render_kernels(scene, photons->store, settings));
-    if (needs_tree && !photons->trees.positions)
+    if (needs_tree && !has_tree(*photons))
         expect_tree(m_device, photons->map.count);
     const std::shared_ptr<const KdTree> tree =
         needs_tree ? find_tree(*photons, progress) : std::make_shared<const KdTree>();

@@ -223,5 +223,7 @@ class PhotonColumns:
             if values is None:
                 how = f"; {maker} makes it" if maker else f"; it holds {', '.join(self.recorded)}"
                 raise PhotonLoupeError(f"this map has no {name}{how}")
-            self._views[name] = np.asarray(values)
+            view = np.asarray(values).view()
+            view.setflags(write=False)
+            self._views[name] = view
         return self._views[name]

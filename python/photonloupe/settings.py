@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 import functools
 import inspect
+import numbers
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeVar
@@ -76,8 +77,10 @@ class Setting:
             name = check_choice(self.name, value, self.names)
             return None if name == self.empty else name
         if isinstance(value, str) and self.empty:
-            check_choice(self.name, value, (self.empty,))
-            return None
+            if value == self.empty:
+                return None
+            what = {"count": "a whole number", "number": "a number"}.get(self.kind, f"{self.width} numbers")
+            raise ArgumentError(f"{self.name} must be {what} or {self.empty}, not {value!r}")
         if self.kind == "count":
             return check_count(self.name, value, *self.limits)
         if self.kind == "number":
@@ -86,12 +89,12 @@ class Setting:
 
     def _check_numbers(self, value: Any) -> list[float]:
         try:
-            numbers = (value,) * self.width if self.spreads and isinstance(value, int | float) else tuple(value)
+            parts = (value,) * self.width if self.spreads and isinstance(value, numbers.Real) else tuple(value)
         except TypeError:
-            numbers = ()
-        if len(numbers) != self.width:
+            parts = ()
+        if len(parts) != self.width:
             raise ArgumentError(f"{self.name} must be {self.width} numbers, not {value!r}")
-        checked = [check_number(self.name, number, self.low, self.high) for number in numbers]
+        checked = [check_number(self.name, number, self.low, self.high) for number in parts]
         if self.differs and len(set(checked)) == 1:
             raise ArgumentError(f"{self.name} must be two different numbers, not both {checked[0]:g}")
         return checked

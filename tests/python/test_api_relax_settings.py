@@ -43,7 +43,7 @@ def layered() -> pl.PhotonMap:
         ({"over_relaxation": "fast"}, "over_relaxation must be"),
         ({"limit": 0.0}, "limit must be from 1e-06 to 1e\\+06, not 0.0"),
         ({"limit": np.inf}, "limit must be from"),
-        ({"limit": "little"}, "limit must be one of none, not 'little'"),
+        ({"limit": "little"}, "limit must be a number or none, not 'little'"),
         ({"constraint_neighbors": 11}, "constraint_neighbors must be from 12 to 998, not 11"),
         ({"constraint_neighbors": 999}, "constraint_neighbors must be from 12"),
         ({"thresholds": (0.5,)}, "thresholds must be 2 numbers"),
@@ -53,7 +53,7 @@ def layered() -> pl.PhotonMap:
         ({"constraint": "parameter"}, 'constraint="parameter" needs parameters'),
         ({"repel": "parameter"}, 'repel="parameter" needs parameters'),
         ({"beta": -1.0}, "beta must be from 0"),
-        ({"beta": "best"}, "beta must be one of auto"),
+        ({"beta": "best"}, "beta must be a number or auto"),
         ({"period": (1.0, 1.0)}, "period must be 3 numbers"),
         ({"period": (1.0, -1.0, 0.0)}, "period must be from 0"),
     ],
@@ -66,7 +66,7 @@ def test_setting_out_of_range_is_refused(photons: pl.PhotonMap, settings: dict[s
 
 @pytest.mark.parametrize(
     ("beta", "message"),
-    [(-1.0, "beta must be from 0"), (np.nan, "beta must be from 0"), ("best", "beta must be one of auto")],
+    [(-1.0, "beta must be from 0"), (np.nan, "beta must be from 0"), ("best", "beta must be a number or auto")],
 )
 def test_beta_out_of_range_is_refused_where_it_is_used(layered: pl.PhotonMap, beta: Any, message: str) -> None:
     with pytest.raises(pl.ArgumentError, match=message):
