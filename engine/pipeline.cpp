@@ -280,7 +280,7 @@ RelaxedRun Workbench::relax_photons(Photons& photons, const Scene* scene, const 
     const std::shared_ptr<const RelaxedRun> relaxed = m_relaxed.find(make_key(photons, scene, settings), [&] {
         Relaxation relaxation = start_relaxation(photons, scene, settings, progress);
         RelaxedRun run;
-        while (relaxation.step_count() < relaxation.settings().steps)
+        while (relaxation.step_count() < relaxation.settings().steps.value())
             run.steps.push_back(relaxation.step(progress));
         run.notes = relaxation.notes();
         run.off_surface_count = relaxation.count_off_surface();

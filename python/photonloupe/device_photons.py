@@ -86,6 +86,7 @@ class DevicePhotons(PhotonColumns):
             return
         if not self._settings:
             raise PhotonLoupeError("this map was not traced here, so paths that it lacks cannot be recorded")
+        # How many were emitted the map knows; old files have 0 where nothing was said.
         scene, settings = self._find_scene(), {**self._settings, "emitted": None, "paths": True}
         with follow_progress(progress) as callback:
             _engine.record_paths(self._device._native, self._native, scene._native, settings, callback)

@@ -6,8 +6,8 @@
 // a normal. ON_SURFACE: only those of the same surface, by the radius that takes them in (METHODS §2); ONE_NORMAL: all
 // photons share a normal. SAME_LAYER: only those of the query's layer number and, if it is positive, within its reach in
 // parameter space (METHODS §4). IN_INTERVALS: only those whose rows lie between two others. IN_PARAMETER_SPACE: the
-// measure is the squared distance there, among those of the same layer number. BY_ID: candidates bring their id along. WITHOUT_SELF: a query does not find
-// the photon that it is.
+// measure is the squared distance there, among those of the same layer number. BY_ID: candidates bring their id along,
+// nodes the least of their photons'. WITHOUT_SELF: a query does not find the photon that it is.
 // HAS_NORMALS: queries bring normals along.
 // Inputs: the tree (tree_nodes, tree_positions, tree_normals, normal_boxes; layers.glsl) and, by query, query_points
 // (xyz, w id bits of the photon itself), query_normals, query_rows, query_reach (squared), interval_rows (twice ROW_COUNT).
