@@ -87,6 +87,12 @@ public:
         }
     }
 
+    // What was raised, where the work went on all the same.
+    void raise() const {
+        if (m_raised)
+            std::rethrow_exception(m_raised);
+    }
+
 private:
     bool ask(std::string_view stage, double fraction) {
         nb::gil_scoped_acquire acquire;
@@ -109,6 +115,9 @@ private:
 
 // A camera by its name, or by its place and axes.
 CameraChoice read_camera(nb::handle given);
+
+// settings, steps, notes, off_surface.
+nb::dict describe_relaxation(const RelaxedRun& run);
 
 void bind_settings(nb::module_& module);
 void bind_device(nb::module_& module);

@@ -51,6 +51,21 @@ CameraChoice read_camera(nb::handle given) {
 }
 
 void bind_estimate(nb::module_& module) {
+    module.def(
+        "aim_camera",
+        [](const std::array<double, 3>& position, const std::array<double, 3>& target, const std::array<double, 3>& up,
+           double yfov) {
+            const Camera camera = aim_camera(position, target, up, yfov);
+            nb::dict row;
+            row["position"] = camera.position;
+            row["right"] = camera.right;
+            row["up"] = camera.up;
+            row["backward"] = camera.backward;
+            row["yfov"] = camera.yfov;
+            return row;
+        },
+        nb::arg("position"), nb::arg("target"), nb::arg("up"), nb::arg("yfov"),
+        "A camera with its axes, that looks from one point at another.");
     module.def("estimate_irradiance", &estimate, nb::arg("device"), nb::arg("photons"), nb::arg("points"),
                nb::arg("normals"), nb::arg("settings"), nb::arg("progress").none() = nb::none(),
                "Irradiance (n, 3) in W/m² at points with unit normals; settings as describe_settings(\"irradiance\") "

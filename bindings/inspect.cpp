@@ -123,7 +123,7 @@ nb::dict describe_view(const LoupeView& view) {
 nb::dict look(OpenDevice& open, Photons& photons, const nb::dict& given, nb::object progress) {
     const LoupeQuery query = read_query(given);
     return describe_view(PythonProgress(std::move(progress)).run([&](const Progress& asked) {
-        return look_through_loupe(open.workbench, photons, query, asked);
+        return look_through_loupe(open.device, photons, query, asked);
     }));
 }
 
@@ -173,7 +173,7 @@ void bind_inspect(nb::module_& module) {
         "find_column",
         [](OpenDevice& open, Photons& photons, const std::string& name, nb::object progress) {
             return describe_column(PythonProgress(std::move(progress)).run([&](const Progress& asked) {
-                return find_column(open.workbench, photons, name, asked);
+                return find_column(open.device, photons, name, asked);
             }));
         },
         nb::arg("device"), nb::arg("photons"), nb::arg("name"), nb::arg("progress").none() = nb::none(),

@@ -69,9 +69,9 @@ nb::dict find_voronoi(OpenDevice& open, Photons& photons, const Scene& scene, co
     CellImage cells;
     Image painted = PythonProgress(std::move(progress)).run([&](const Progress& asked) {
         const SurfaceView view = see(open, scene, asked_view, asked);
-        cells = find_voronoi_cells(open.device, photons.map, *open.workbench.find_tree(photons, asked), view, settings,
+        cells = find_voronoi_cells(open.device, photons.map, *find_tree(open.device, photons, asked), view, settings,
                                    asked);
-        return paint_cells(cells, find_photon_colors(open.workbench, photons, color, asked));
+        return paint_cells(cells, find_photon_colors(open.device, photons, color, asked));
     });
     return describe_cells(std::move(cells), std::move(painted));
 }
@@ -96,7 +96,7 @@ nb::dict find_kd(OpenDevice& open, Photons& photons, const Scene& scene, const n
     std::vector<NodeBox> boxes;
     Image painted = PythonProgress(std::move(progress)).run([&](const Progress& asked) {
         const SurfaceView view = see(open, scene, asked_view, asked);
-        const std::shared_ptr<const KdTree> tree = open.workbench.find_tree(photons, asked);
+        const std::shared_ptr<const KdTree> tree = find_tree(open.device, photons, asked);
         cells = find_kd_cells(open.device, photons.map, *tree, view, depth, asked);
         boxes = list_node_boxes(*tree, depth);
         return paint_cells(cells, list_hash_colors(2ull << tree->leaf_level));
@@ -119,9 +119,9 @@ nb::dict plot(OpenDevice& open, Photons& photons, const nb::dict& given, std::op
     const auto names = std::array{nb::cast<std::string>(given["x"]), nb::cast<std::string>(given["y"]),
                                   nb::cast<std::string>(given["color"])};
     const auto [x, y, colors] = PythonProgress(nb::none()).run([&](const Progress& asked) {
-        return std::tuple(find_column(open.workbench, photons, names[0], asked),
-                          find_column(open.workbench, photons, names[1], asked),
-                          find_photon_colors(open.workbench, photons, names[2], asked));
+        return std::tuple(find_column(open.device, photons, names[0], asked),
+                          find_column(open.device, photons, names[1], asked),
+                          find_photon_colors(open.device, photons, names[2], asked));
     });
     ScatterPlot made = plot_scatter(x, y, colors, selection ? &*selection : nullptr, settings);
     std::vector<double> pixels;

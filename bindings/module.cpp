@@ -9,6 +9,7 @@ NB_MODULE(_engine, module) {
     module.doc() = "Photon Loupe's engine: tracing, photon maps, estimation on Vulkan compute.";
     module.attr("version") = PHOTONLOUPE_VERSION;
     auto base = nb::exception<Error>(module, "PhotonLoupeError");
+    nb::exception<ArgumentError>(module, "ArgumentError", nb::make_tuple(base, nb::handle(PyExc_ValueError)));
     nb::exception<SceneError>(module, "SceneError", base);
     nb::exception<DeviceError>(module, "DeviceError", base);
     nb::exception<MemoryError>(module, "DeviceMemoryError", base);

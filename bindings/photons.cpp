@@ -5,6 +5,7 @@
 #include "inspect/path_view.h"
 #include "inspect/settings.h"
 #include "photons/map_columns.h"
+#include "photons/nearest_query.h"
 #include "settings.h"
 
 namespace photonloupe::bindings {
@@ -32,7 +33,7 @@ nb::dict describe_report(const Photons& photons) {
 nb::dict describe_tree(Photons& photons, OpenDevice& open) {
     TreeArrays arrays = [&] {
         nb::gil_scoped_release release;
-        return read_tree(*open.workbench.find_tree(photons));
+        return read_tree(*find_tree(open.device, photons));
     }();
     std::vector<float> boxes;
     for (const std::array<float, 6>& box : arrays.box)
@@ -92,7 +93,7 @@ std::shared_ptr<const RelaxedState> read_state(const nb::dict& columns) {
 }
 
 std::shared_ptr<Photons> make_photons(OpenDevice& open, const nb::dict& columns, const Axes& axes,
-                                      const std::string& store, std::uint64_t emitted) {
+                                      const nb::dict& settings, std::uint64_t emitted) {
     auto photons = std::make_shared<Photons>();
     photons->map = make_map(
         open.device, {take_span<float>(columns, "positions"), take_span<float>(columns, "normals"),
@@ -109,9 +110,10 @@ std::shared_ptr<Photons> make_photons(OpenDevice& open, const nb::dict& columns,
     if (columns.contains("colors"))
         set_colors(open.device, photons->map, take_floats(columns, "colors"));
     photons->state = read_state(columns);
-    TraceSettings origin;
-    write_setting(find_setting(list_settings(origin), "store"), store);
+    const auto origin = read_settings<TraceSettings>(settings);
     photons->store = origin.store;
+    if (settings.contains("emission"))
+        photons->emission = origin.emission;
     photons->report.emitted = emitted;
     return photons;
 }
@@ -143,7 +145,7 @@ nb::tuple find_near(OpenDevice& open, Photons& photons, std::optional<Points> po
         places = localize_points(photons.map, query.values);
     query.places = places;
     const Neighbors found = PythonProgress(std::move(progress)).run([&](const Progress& asked) {
-        return open.workbench.find_neighbors(photons, query, asked);
+        return find_neighbors(open.device, photons, query, asked);
     });
     const std::size_t rows = points ? points->shape(0) : ids->size();
     return nb::make_tuple(own_array(found.ids.read<std::int32_t>(rows * k), k),
@@ -171,8 +173,9 @@ void bind_photons(nb::module_& module) {
         .def("tree", &describe_tree, nb::arg("device"));
     bind_columns(type);
     module.def("photons_from_columns", &make_photons, nb::arg("device"), nb::arg("columns"), nb::arg("axes"),
-               nb::arg("store"), nb::arg("emitted"), nb::keep_alive<0, 1>(),
-               "Upload checked columns as a photon map; axes as of its parameters.");
+               nb::arg("origin"), nb::arg("emitted"), nb::keep_alive<0, 1>(),
+               "Upload checked columns as a photon map; axes as of its parameters, origin: store and emission where "
+               "they are known.");
     module.def(
         "share_photons", [](OpenDevice&, const Photons& photons) { return share_photons(photons); }, nb::arg("device"),
         nb::arg("photons"), nb::keep_alive<0, 1>(), nb::call_guard<nb::gil_scoped_release>(),

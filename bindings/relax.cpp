@@ -2,11 +2,26 @@
 // Binds engine/relax: a relaxation that is stepped, and what came of it as arrays.
 #include "binding.h"
 
+#include "relax/isotropy.h"
 #include "relax/relaxation.h"
 #include "settings.h"
 
 namespace photonloupe::bindings {
 namespace {
+
+nb::dict describe_step(const StepReport& report) {
+    nb::dict row;
+    row["step"] = report.step;
+    row["tau"] = report.tau;
+    row["mean_move"] = report.mean_move;
+    row["largest_move"] = report.largest_move;
+    row["mean_pressure"] = report.mean_pressure;
+    row["mean_displacement"] = report.mean_metres;
+    row["flux_drift"] = report.flux_drift;
+    return row;
+}
+
+using FoundBeta = std::optional<std::tuple<double, double, nb::ndarray<nb::numpy, float>>>;
 
 // A relaxation with the photons it reads from.
 struct OpenRelaxation {
@@ -24,18 +39,6 @@ std::shared_ptr<OpenRelaxation> start(OpenDevice& open, std::shared_ptr<Photons>
     });
 }
 
-nb::dict describe_step(const StepReport& report) {
-    nb::dict row;
-    row["step"] = report.step;
-    row["tau"] = report.tau;
-    row["mean_move"] = report.mean_move;
-    row["largest_move"] = report.largest_move;
-    row["mean_pressure"] = report.mean_pressure;
-    row["mean_displacement"] = report.mean_metres;
-    row["flux_drift"] = report.flux_drift;
-    return row;
-}
-
 nb::dict step(OpenRelaxation& open, nb::object progress) {
     return describe_step(
         PythonProgress(std::move(progress)).run([&](const Progress& asked) { return open.relaxation.step(asked); }));
@@ -47,33 +50,40 @@ nb::tuple relax(OpenDevice& open, Photons& photons, nb::object scene, const nb::
     const RelaxedRun run = PythonProgress(std::move(progress)).run([&](const Progress& asked) {
         return open.workbench.relax_photons(photons, surface, settings, asked);
     });
-    nb::list rows;
-    for (const StepReport& report : run.steps)
-        rows.append(describe_step(report));
-    return nb::make_tuple(run.photons, rows, run.notes, run.off_surface_count);
+    return nb::make_tuple(run.photons, describe_relaxation(run));
 }
 
 } // namespace
 
+nb::dict describe_relaxation(const RelaxedRun& run) {
+    RelaxSettings settings = run.settings;
+    nb::list steps;
+    for (const StepReport& report : run.steps)
+        steps.append(describe_step(report));
+    nb::dict row;
+    row["settings"] = write_rows(list_settings(settings));
+    row["steps"] = steps;
+    row["notes"] = run.notes;
+    row["off_surface"] = run.off_surface_count;
+    return row;
+}
+
 void bind_relax(nb::module_& module) {
     nb::class_<OpenRelaxation>(module, "Relaxation")
         .def("step", &step, nb::arg("progress").none() = nb::none(), "One step; what it did.")
+        .def_prop_ro(
+            "settings",
+            [](const OpenRelaxation& open) {
+                RelaxSettings settings = open.relaxation.settings();
+                return write_rows(list_settings(settings));
+            },
+            "All of them, what is automatic filled in.")
         .def_prop_ro(
             "notes", [](const OpenRelaxation& open) { return open.relaxation.notes(); },
             "What makes parameters useless here, with the cure.")
         .def_prop_ro(
             "off_surface", [](const OpenRelaxation& open) { return open.relaxation.count_off_surface(); },
             "Photons that moved in their tangent plane.")
-        .def(
-            "sample_distances",
-            [](const OpenRelaxation& open, std::uint64_t count, std::uint32_t k) {
-                std::vector<float> distances = PythonProgress(nb::none()).run([&](const Progress& asked) {
-                    return open.relaxation.sample_distances(count, k, asked);
-                });
-                return own_array(std::move(distances), k);
-            },
-            nb::arg("count"), nb::arg("k"),
-            "Distances (m, k) of photons spread evenly over the map to their nearest, where they are now.")
         .def(
             "read",
             [](const OpenRelaxation& open) {
@@ -82,19 +92,24 @@ void bind_relax(nb::module_& module) {
             },
             "The map as it is now.");
     module.def(
-        "measure_isotropy",
-        [](OpenDevice& open, Photons& photons, std::uint32_t k, nb::object progress) {
-            std::vector<float> ratios = PythonProgress(std::move(progress)).run([&](const Progress& asked) {
-                return open.workbench.measure_isotropy(photons, k, asked);
+        "find_optimal_beta",
+        [](OpenDevice& open, Photons& photons, std::uint32_t k, double clip, nb::object progress) -> FoundBeta {
+            auto found = PythonProgress(std::move(progress)).run([&](const Progress& asked) {
+                return find_optimal_beta(open.device, photons, k, clip, asked);
             });
-            return own_array(std::move(ratios));
+            if (!found)
+                return std::nullopt;
+            return std::tuple(found->beta, found->threshold, own_array(std::move(found->isotropy)));
         },
-        nb::arg("device"), nb::arg("photons"), nb::arg("k"), nb::arg("progress").none() = nb::none(),
-        "Axis ratios (n,) of the world positions of each photon's k neighbours in parameter space; NaN: none.");
-    module.def("relax_photons", &relax, nb::arg("device"), nb::arg("photons"), nb::arg("scene").none(),
-               nb::arg("settings"), nb::arg("progress").none() = nb::none(),
-               "All steps of a relaxation: the map, what each step did, notes, photons off their surface; settings as "
-               "start_relaxation.");
+        nb::arg("device"), nb::arg("photons"), nb::arg("k"), nb::arg("clip"), nb::arg("progress").none() = nb::none(),
+        "β, t_β and the axis ratios (n,) they come from; None: no photon has one.");
+    module.def(
+        "explain_no_ratio", [](const Photons& photons) { return explain_no_ratio(photons.map); }, nb::arg("photons"),
+        "Why β cannot be found, and what to do.");
+    module.def(
+        "relax_photons", &relax, nb::arg("device"), nb::arg("photons"), nb::arg("scene").none(), nb::arg("settings"),
+        nb::arg("progress").none() = nb::none(),
+        "All steps of a relaxation: the map, and settings, steps, notes, off_surface; settings as start_relaxation.");
     module.def("start_relaxation", &start, nb::arg("device"), nb::arg("photons"), nb::arg("scene").none(),
                nb::arg("settings"), nb::arg("progress").none() = nb::none(), nb::keep_alive<0, 1>(),
                "Measure the constraint and stand ready; settings as describe_settings(\"relax\") has them.");

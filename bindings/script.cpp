@@ -11,21 +11,6 @@ namespace {
 
 using script::CompiledScript;
 
-// Names of the map's columns, as Python has them.
-constexpr std::pair<std::uint32_t, const char*> COLUMN_NAMES[] = {
-    {script::COLUMN_POSITION, "positions"},
-    {script::COLUMN_NORMAL, "normals"},
-    {script::COLUMN_POWER, "power"},
-    {script::COLUMN_EMITTER, "emitter"},
-    {script::COLUMN_PARAMETERS, "parameters"},
-    {script::COLUMN_PATH_STARTS, "path_offsets"},
-    {script::COLUMN_PATH_VERTICES, "path_vertices"},
-    {script::COLUMN_PATH_NORMALS, "path_normals"},
-    {script::COLUMN_PATH_INTERACTIONS, "path_interactions"},
-    {script::COLUMN_PATH_OBJECTS, "path_objects"},
-    {script::COLUMN_PATH_SCATTER, "path_scatter"},
-};
-
 struct BoundScript {
     std::unique_ptr<CompiledScript> compiled;
     std::string hash;
@@ -75,14 +60,6 @@ nb::list list_exposed(const BoundScript& self) {
         rows.append(row);
     }
     return rows;
-}
-
-nb::list list_columns(const BoundScript& self) {
-    nb::list names;
-    for (const auto& [bit, name] : COLUMN_NAMES)
-        if (self.compiled->program.columns & bit)
-            names.append(name);
-    return names;
 }
 
 const char* name_role(script::Role role) {
@@ -211,7 +188,7 @@ nb::dict describe_report(const BoundScript& self, const script::ScriptRun& run) 
     report["passes"] = passes;
     report["faults"] = faults;
     report["parameters"] = parameters;
-    report["columns"] = list_columns(self);
+    report["columns"] = script::list_columns(self.compiled->program);
     report["stopped"] = run.stopped;
     return report;
 }
@@ -278,7 +255,7 @@ void bind_script(nb::module_& module) {
         .def_prop_ro("hash", [](const BoundScript& self) { return self.hash; })
         .def_prop_ro("diagnostics", &list_diagnostics)
         .def_prop_ro("exposed", &list_exposed)
-        .def_prop_ro("columns", &list_columns)
+        .def_prop_ro("columns", [](const BoundScript& self) { return script::list_columns(self.compiled->program); })
         .def_prop_ro("passes", &list_passes)
         .def("glsl", &list_glsl, "The text of every compute pass.")
         .def("spirv", &list_spirv, "Every compute pass as SPIR-V.")

@@ -35,13 +35,6 @@ nb::object write_value(const Setting& setting) {
         value);
 }
 
-nb::dict write_rows(const std::vector<Setting>& rows) {
-    nb::dict values;
-    for (const Setting& setting : rows)
-        values[setting.about.name.c_str()] = write_value(setting);
-    return values;
-}
-
 nb::list describe_rows(const std::vector<Setting>& rows) {
     static constexpr const char* KINDS[] = {"flag", "count", "number", "numbers", "choice"};
     nb::list list;
@@ -83,16 +76,14 @@ auto with_stage(const std::string& stage, const Use& use) {
     throw Error("stage is '" + stage + "'; it must be trace, relax, irradiance, render or loupe");
 }
 
-// The emission of a map by its name; of photons that came from elsewhere there is none.
-std::optional<Emission> parse_emission(const std::optional<std::string>& name) {
-    if (!name)
-        return std::nullopt;
-    TraceSettings origin;
-    write_setting(find_setting(list_settings(origin), "emission"), *name);
-    return origin.emission;
-}
-
 } // namespace
+
+nb::dict write_rows(const std::vector<Setting>& rows) {
+    nb::dict values;
+    for (const Setting& setting : rows)
+        values[setting.about.name.c_str()] = write_value(setting);
+    return values;
+}
 
 void read_rows(const std::vector<Setting>& rows, const nb::dict& given) {
     for (const Setting& setting : rows)
@@ -108,20 +99,9 @@ void bind_settings(nb::module_& module) {
         },
         nb::arg("stage"), "Every setting of trace, relax, irradiance, render or loupe: name, kind, default, range …");
     module.def(
-        "complete_relaxation",
-        [](const nb::dict& given, const std::optional<std::string>& emission, bool has_parameters) {
-            RelaxSettings settings =
-                complete_settings(read_settings<RelaxSettings>(given), parse_emission(emission), has_parameters);
-            return write_rows(list_settings(settings));
-        },
-        nb::arg("given"), nb::arg("emission").none(), nb::arg("has_parameters"),
-        "All settings of a relaxation, what is automatic filled in but for beta.");
-    module.def(
         "choose_k",
-        [](const std::optional<std::string>& emission) {
-            return choose_k(EstimateSettings{}, parse_emission(emission));
-        },
-        nb::arg("emission").none(), "How many photons an estimate gathers where nothing is said.");
+        [](const Photons* photons) { return choose_k(EstimateSettings{}, photons ? photons->emission : std::nullopt); },
+        nb::arg("photons").none(), "How many photons an estimate gathers of a map where nothing is said.");
 }
 
 } // namespace photonloupe::bindings

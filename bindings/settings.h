@@ -8,6 +8,7 @@
 
 namespace photonloupe::bindings {
 
+nb::dict write_rows(const std::vector<Setting>& rows);
 void read_rows(const std::vector<Setting>& rows, const nb::dict& given);
 
 template <class Settings>

@@ -5,11 +5,12 @@
 #include <nanobind/stl/pair.h>
 
 #include "core/cache_folder.h"
+#include "settings.h"
 #include "studio/edit_state.h"
 #include "studio/loupe_query.h"
 #include "studio/python_script.h"
 #include "studio/session.h"
-#include "studio/studio.h"
+#include "studio/worker.h"
 
 namespace photonloupe::bindings {
 namespace {
@@ -25,16 +26,82 @@ struct FreeState {
     }
 };
 
-// A studio that goes without the GIL: it waits for the device, which work that waits for the GIL may hold.
+using Pixels = nb::ndarray<nb::numpy, const float, nb::shape<-1, -1, 3>, nb::c_contig>;
+
+Image take_image(const Pixels& pixels) {
+    return {static_cast<std::uint32_t>(pixels.shape(1)),
+            static_cast<std::uint32_t>(pixels.shape(0)),
+            std::vector<float>(pixels.data(), pixels.data() + pixels.size()),
+            {}};
+}
+
+// Python's part of the work, from any thread; what it raises is said by the interface.
+class PythonHost {
+public:
+    PythonHost(nb::object load_map, nb::object compare)
+        : m_load_map(keep(std::move(load_map))), m_compare(keep(std::move(compare))) {}
+
+    studio::Host make() const {
+        return {[load = m_load_map](const std::string& path) {
+                    return ask<studio::LoadedMap>([&] {
+                        const auto [photons, scene, remarks] =
+                            nb::cast<std::tuple<std::shared_ptr<Photons>, std::optional<std::shared_ptr<Scene>>,
+                                                std::vector<std::string>>>((*load)(path));
+                        return studio::LoadedMap{photons, scene.value_or(nullptr), remarks};
+                    });
+                },
+                [compare = m_compare](const Image& image, const std::string& reference) {
+                    return ask<studio::Comparison>([&] {
+                        const auto [pixels, error, rmse, relmse, flip, reason] =
+                            nb::cast<std::tuple<Pixels, std::optional<Pixels>, double, double, double, std::string>>(
+                                (*compare)(own_pixels(std::vector<float>(image.rgb), image.height, image.width),
+                                           reference));
+                        studio::Comparison comparison{take_image(pixels), {}, {rmse, relmse, flip}, reason};
+                        if (error)
+                            comparison.error = take_image(*error);
+                        return comparison;
+                    });
+                }};
+    }
+
+private:
+    using Kept = std::shared_ptr<nb::object>; // may go without the GIL
+
+    static Kept keep(nb::object function) {
+        return Kept(new nb::object(std::move(function)), [](nb::object* kept) {
+            nb::gil_scoped_acquire acquire;
+            delete kept;
+        });
+    }
+
+    template <class Answer, class Call>
+    static Answer ask(const Call& call) {
+        nb::gil_scoped_acquire acquire;
+        try {
+            return call();
+        } catch (const nb::python_error& error) {
+            throw Error(nb::str(error.value()).c_str());
+        }
+    }
+
+    Kept m_load_map, m_compare;
+};
+
+// A studio with its worker, that goes without the GIL: it waits for the device, and for work that may ask Python.
 struct Studio : FreeState, studio::Studio {
+    std::optional<studio::Worker> worker; // goes first
     using studio::Studio::Studio;
     ~Studio() { state = PyEval_SaveThread(); }
 };
 
 std::unique_ptr<Studio> open_studio(OpenDevice& open, std::pair<std::uint32_t, std::uint32_t> size, float scale,
-                                    bool is_offscreen) {
+                                    bool is_offscreen, bool is_threaded, nb::object load_map, nb::object compare) {
+    const studio::Host host = PythonHost(std::move(load_map), std::move(compare)).make();
     nb::gil_scoped_release release;
-    return std::make_unique<Studio>(open.device, studio::StudioOptions{size.first, size.second, scale, is_offscreen});
+    auto opened =
+        std::make_unique<Studio>(open.workbench, studio::StudioOptions{size.first, size.second, scale, is_offscreen});
+    opened->worker.emplace(*opened, host, is_threaded);
+    return opened;
 }
 
 // Without the GIL: what waits for the device may wait for work that reports its progress to Python.
@@ -60,13 +127,6 @@ std::optional<std::array<float, 4>> describe_box(const std::optional<studio::Wid
     return std::array{box->x, box->y, box->width, box->height};
 }
 
-std::optional<std::array<std::string, 3>> take_job(Studio& self) {
-    const std::optional<studio::Job> job = self.take_job();
-    if (!job)
-        return std::nullopt;
-    return std::array{job->kind, job->key, job->settings};
-}
-
 nb::object read_selection(Studio& self) {
     const studio::Ids ids = self.workspace().state.selection;
     if (!ids)
@@ -83,77 +143,54 @@ void select(Studio& self, std::optional<std::vector<std::uint32_t>> ids) {
     });
 }
 
-void deliver_photons(Studio& self, std::shared_ptr<const Scene> scene, std::shared_ptr<Photons> photons,
-                     bool has_same_paths) {
-    run_free([&] { self.workspace().bench.build_view_trees(*photons); });
-    self.deliver([scene = std::move(scene), photons = std::move(photons), has_same_paths](Workspace& workspace) {
-        workspace.take_photons(scene, photons, has_same_paths);
-    });
+nb::object describe_trace(const std::optional<TraceSettings>& trace) {
+    if (!trace)
+        return nb::none();
+    TraceSettings settings = *trace;
+    nb::dict row = write_rows(list_settings(settings));
+    row["paths"] = settings.paths;
+    return std::move(row);
 }
 
-using StepRows = std::vector<std::array<double, 4>>;
-
-std::vector<studio::StepResult> read_steps(const StepRows& rows) {
-    std::vector<studio::StepResult> steps;
-    for (const auto& row : rows)
-        steps.push_back({row[0], row[1], row[2], row[3]});
-    return steps;
+nb::object describe_script(const studio::Made& made) {
+    if (!made.script)
+        return nb::none();
+    nb::dict row;
+    row["name"] = made.script_name;
+    row["hash"] = made.script_hash;
+    row["values"] = made.script->exposed;
+    row["seed"] = script::RunSettings().seed;
+    row["keep"] = false;
+    return std::move(row);
 }
 
-void deliver_relaxed(Studio& self, std::shared_ptr<Photons> photons, const StepRows& rows,
-                     std::optional<std::uint32_t> stopped_at) {
-    run_free([&] { self.workspace().bench.build_view_trees(*photons); });
-    self.deliver([photons = std::move(photons), steps = read_steps(rows), stopped_at](Workspace& workspace) {
-        workspace.take_relaxed(photons, steps);
-        if (stopped_at)
-            workspace.state.relax.made = std::min(workspace.state.relax.made, *stopped_at);
-    });
+nb::dict describe_made(const Studio& self) {
+    const studio::Made made = self.worker->stages().made();
+    nb::dict row;
+    row["scene"] = std::const_pointer_cast<Scene>(made.scene);
+    row["photons"] = made.photons;
+    row["trace"] = describe_trace(made.trace);
+    row["script"] = describe_script(made);
+    row["relaxed"] = made.relaxed;
+    row["relaxation"] = made.relaxed ? nb::object(describe_relaxation(made.relaxation)) : nb::none();
+    return row;
 }
 
-void deliver_isotropy(Studio& self, nb::ndarray<nb::numpy, const float, nb::ndim<1>, nb::c_contig> values, double beta,
-                      double threshold) {
-    studio::IsotropyResult result{{values.data(), values.data() + values.size()}, beta, threshold};
-    self.deliver([result = std::move(result)](Workspace& workspace) { workspace.take_isotropy(result); });
-}
+using Rendered = std::tuple<nb::ndarray<nb::numpy, float, nb::ndim<3>>, nb::dict, bool>;
 
-void deliver_script(Studio& self, const nb::list& histograms, std::vector<std::string> prints,
-                    std::vector<std::string> report, double milliseconds) {
-    studio::ScriptResult result{{}, std::move(prints), std::move(report), milliseconds};
-    for (nb::handle row : histograms)
-        result.histograms.push_back({nb::cast<std::string>(row["name"]), nb::cast<double>(row["low"]),
-                                     nb::cast<double>(row["high"]), nb::cast<std::vector<double>>(row["counts"])});
-    self.deliver([result](Workspace& workspace) { workspace.results.script = result; });
-}
-
-using Pixels = nb::ndarray<nb::numpy, const float, nb::shape<-1, -1, 3>, nb::c_contig>;
-
-std::optional<Image> take_image(const std::optional<Pixels>& pixels) {
-    if (!pixels)
+std::optional<Rendered> describe_rendered(const Studio& self) {
+    const studio::Made made = self.worker->stages().made();
+    if (!made.image)
         return std::nullopt;
-    return Image{static_cast<std::uint32_t>(pixels->shape(1)),
-                 static_cast<std::uint32_t>(pixels->shape(0)),
-                 std::vector<float>(pixels->data(), pixels->data() + pixels->size()),
-                 {}};
-}
-
-void deliver_images(Studio& self, std::optional<Pixels> image, std::optional<Pixels> colors) {
-    self.deliver([image = take_image(image), colors = take_image(colors)](Workspace& workspace) {
-        workspace.results.image = image;
-        workspace.results.colors = colors;
-        ++workspace.results.image_version;
-    });
-}
-
-void deliver_comparison(Studio& self, std::optional<Pixels> reference, std::optional<Pixels> error, double rmse,
-                        double relmse, double flip) {
-    self.deliver([=, reference = take_image(reference), error = take_image(error)](Workspace& workspace) {
-        workspace.results.reference = reference;
-        workspace.results.error = error;
-        workspace.results.comparison.reset();
-        if (error)
-            workspace.results.comparison = studio::ComparisonResult{rmse, relmse, flip};
-        ++workspace.results.image_version;
-    });
+    RenderSettings settings = made.render;
+    nb::dict told = write_rows(list_settings(settings)), camera;
+    camera["position"] = made.camera.position;
+    camera["target"] = made.camera.target;
+    camera["up"] = made.camera.up;
+    camera["yfov"] = made.camera.yfov;
+    told["camera"] = camera;
+    return Rendered(own_pixels(std::vector<float>(made.image->rgb), made.image->height, made.image->width), told,
+                    made.is_relaxed);
 }
 
 void bind_input(nb::class_<Studio>& type) {
@@ -170,37 +207,34 @@ void bind_input(nb::class_<Studio>& type) {
 }
 
 void bind_work(nb::class_<Studio>& type) {
-    type.def("take_job", &take_job,
-             "(kind, key, settings as JSON) of the next piece of work, once; None: there is none.")
-        .def("end_job", [](Studio& self, const std::string& kind, const std::string& key,
-                           const std::string& error) { self.end_job({kind, key, {}}, error); })
-        .def("report_progress", &Studio::report_progress)
+    type.def(
+            "take_turn",
+            [](Studio& self) {
+                PythonProgress progress{nb::object(nb::none())};
+                const bool is_done = progress.run([&](const Progress& asked) { return self.worker->take_turn(asked); });
+                progress.raise();
+                return is_done;
+            },
+            "Begin the next job; True: it has been done, and a frame should show it.")
+        .def_prop_ro("is_busy", [](const Studio& self) { return self.worker->is_busy(); })
+        .def_prop_ro(
+            "job_counts", [](const Studio& self) { return self.worker->counts(); }, "Jobs begun, by kind.")
+        .def(
+            "close", [](Studio& self) { self.worker->close(); }, nb::call_guard<nb::gil_scoped_release>())
         .def("stop_job", &Studio::stop_job)
+        .def("open_scene", [](Studio& self, std::shared_ptr<Scene> scene) { self.worker->stages().open_scene(scene); })
+        .def("made", &describe_made,
+             "scene, photons, trace (settings; None: from a file), script, relaxed, relaxation; None where there is "
+             "none.")
+        .def("rendered", &describe_rendered,
+             "The last rendered view, its settings, and whether its photons are relaxed.")
         .def("take_requests", &Studio::take_requests)
         .def("say", [](Studio& self, const std::string& text,
                        bool is_error) { self.deliver([=](Workspace& workspace) { workspace.say(text, is_error); }); })
-        .def("deliver_photons", &deliver_photons, nb::arg("scene").none(), nb::arg("photons"),
-             nb::arg("has_same_paths"))
-        .def("deliver_relaxed", &deliver_relaxed, nb::arg("photons"), nb::arg("steps"), nb::arg("stopped_at").none())
-        .def("deliver_steps",
-             [](Studio& self, const StepRows& rows) {
-                 self.deliver([steps = read_steps(rows)](Workspace& workspace) { workspace.results.steps = steps; });
-             })
-        .def("forget_script",
-             [](Studio& self) { self.deliver([](Workspace& workspace) { workspace.results.script.reset(); }); })
-        .def("deliver_isotropy", &deliver_isotropy)
-        .def("deliver_script", &deliver_script)
         .def("forget_work", &Studio::forget_work)
-        .def("deliver_images", &deliver_images, nb::arg("image").none(), nb::arg("colors").none())
-        .def("deliver_comparison", &deliver_comparison, nb::arg("reference").none(), nb::arg("error").none(),
-             nb::arg("rmse"), nb::arg("relmse"), nb::arg("flip"))
         .def("offer_restore",
              [](Studio& self, const std::string& path) {
                  self.deliver([=](Workspace& workspace) { workspace.restorable = path; });
-             })
-        .def("deliver_times",
-             [](Studio& self, std::map<std::string, double> milliseconds) {
-                 self.deliver([=](Workspace& workspace) { workspace.stage_milliseconds = milliseconds; });
              })
         .def("deliver_examples", [](Studio& self, const std::vector<std::pair<std::string, std::string>>& examples) {
             self.deliver([=](Workspace& workspace) {
@@ -281,7 +315,10 @@ void bind_studio(nb::module_& module) {
     bind_work(type);
     bind_state(type);
     module.def("open_studio", &open_studio, nb::arg("device"), nb::arg("size"), nb::arg("scale"), nb::arg("offscreen"),
-               nb::keep_alive<0, 1>(), "The interactive tool, in a window or without.");
+               nb::arg("threaded"), nb::arg("load_map"), nb::arg("compare"), nb::keep_alive<0, 1>(),
+               "The interactive tool, in a window or without, that works in a thread or in its frames. "
+               "load_map(path): the map, its scene or None, remarks. compare(pixels, path): reference, error map or "
+               "None, rmse, relmse, flip, and why there is none.");
     module.def(
         "find_cache_folder", [] { return find_cache_folder().string(); },
         "The per-user folder for what can be made again; empty: there is none.");

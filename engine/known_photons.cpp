@@ -13,6 +13,7 @@ std::shared_ptr<Photons> share_photons(const Photons& photons) {
     shared->map = share_map(photons.map);
     shared->report = photons.report;
     shared->store = photons.store;
+    shared->emission = photons.emission;
     shared->state = photons.state;
     shared->trees = photons.trees;
     shared->identity = photons.identity;
@@ -28,6 +29,7 @@ std::shared_ptr<Photons> select_photons(gpu::Device& device, const Photons& phot
     some->map = select_photons(device, photons.map, ids);
     some->report = photons.report;
     some->store = photons.store;
+    some->emission = photons.emission;
     if (!photons.state)
         return some;
     RelaxedState state;
@@ -36,19 +38,6 @@ std::shared_ptr<Photons> select_photons(gpu::Device& device, const Photons& phot
         state.*field = select_rows(*photons.state.*field, photons.map.count, ids);
     some->state = std::make_shared<const RelaxedState>(std::move(state));
     return some;
-}
-
-void take_parameters(Photons& photons, std::optional<ParameterColumns> parameters) {
-    photons.trees = {photons.trees.positions, {}, {}, {}, {}};
-    photons.map.parameters = std::move(parameters);
-}
-
-void set_parameters(gpu::Device& device, Photons& photons, std::vector<float> values, std::vector<ParameterAxis> axes) {
-    std::optional<ParameterColumns> parameters;
-    if (!axes.empty())
-        parameters = make_parameters(device, std::move(values), std::move(axes));
-    const std::lock_guard lock(*photons.mutex);
-    take_parameters(photons, std::move(parameters));
 }
 
 std::vector<float> read_traced_positions(const Photons& photons) {

@@ -9,6 +9,7 @@
 #include "inspect/photon_colors.h"
 #include "inspect/voronoi.h"
 #include "photons/map_columns.h"
+#include "photons/nearest_query.h"
 #include "photons/select_photons.h"
 #include "photons/tree_kernels.h"
 #include "stage_keys.h"
@@ -41,11 +42,6 @@ void take_script_columns(Photons& photons, const Photons& scripted) {
     photons.map.colors = std::move(columns.colors);
     photons.map.given_colors = std::move(columns.given_colors);
     photons.trees = scripted.trees;
-}
-
-bool has_tree(const Photons& photons) {
-    const std::lock_guard lock(*photons.mutex);
-    return photons.trees.positions != nullptr;
 }
 
 // Compiles what a tree of so many photons needs.
@@ -83,6 +79,7 @@ Photons Workbench::trace_anew(const Scene& scene, const TraceSettings& settings,
     photons.map = std::move(traced.map);
     photons.report = traced.report;
     photons.store = settings.store;
+    photons.emission = settings.emission;
     return photons;
 }
 
@@ -99,99 +96,6 @@ void Workbench::record_paths(Photons& photons, const Scene& scene, TraceSettings
     const std::vector<std::uint32_t> ids =
         find_traced(traced->map, read_emitted_indices(photons.map), read_traced_positions(photons));
     photons.map.paths = select_paths(m_device, *traced->map.paths, traced->map.count, ids, shift);
-}
-
-Neighbors Workbench::find_neighbors(Photons& photons, const NearestQuery& query, const Progress& progress) {
-    require_k(query.k);
-    const auto find = [&](const Neighborhood& among, const NeighborQueries& queries) {
-        return photonloupe::find_neighbors(m_device, among, queries, query.k, progress);
-    };
-    if (query.space == SearchSpace::world) {
-        const std::shared_ptr<const KdTree> tree = find_tree(photons, progress);
-        return find({*tree}, query.ids ? ask_about(photons.map, *query.ids) : ask_at(query.places));
-    }
-    if (query.space == SearchSpace::parameter) {
-        const std::shared_ptr<const ParameterTree> tree = find_parameter_tree(photons, progress);
-        return find(look_in(*tree, Measure::parameters), query.ids
-                                                             ? ask_with_rows(photons.map, *tree->parameters, *query.ids)
-                                                             : ask_parameters_at(*tree->parameters, query.values));
-    }
-    const std::shared_ptr<const ParameterTree> tree = find_layered_tree(photons, progress);
-    const auto ask_with_radii = [&](std::span<const std::uint32_t> ids) {
-        NeighborQueries queries = ask_with_rows(photons.map, *tree->parameters, ids);
-        for (const float radius2 : find_radii2_of(photons, queries, query.k, progress))
-            queries.reach2.push_back(scale_reach2(radius2, query.beta));
-        return queries;
-    };
-    if (query.ids)
-        return find(look_in(*tree, Measure::world), ask_with_radii(*query.ids));
-    NeighborQueries queries = ask_at(query.places);
-    if (query.center) {
-        const NeighborQueries center = ask_with_radii(std::span(&*query.center, 1));
-        seek_in_layer(queries, center.rows, center.reach2[0]);
-    } else {
-        seek_in_intervals(queries, query.low, query.high);
-    }
-    return find(look_in(*tree, Measure::world), queries);
-}
-
-std::vector<float> Workbench::find_radii2_of(Photons& photons, const NeighborQueries& queries, std::uint32_t k,
-                                             const Progress& progress) {
-    const OrderedQueries ordered = order_queries(m_device, queries);
-    const gpu::Buffer radii =
-        find_parameter_radii(m_device, *find_parameter_tree(photons, progress), ordered.view(), k, progress);
-    const std::vector<glm::vec4> found = radii.read<glm::vec4>(ordered.count);
-    const std::vector<std::uint32_t> rows = ordered.result_rows.read<std::uint32_t>(ordered.count);
-    std::vector<float> radii2(ordered.count);
-    for (std::size_t i = 0; i < found.size(); ++i)
-        radii2[rows[i]] = found[i].w >= static_cast<float>(k) ? found[i].x : std::numeric_limits<float>::infinity();
-    return radii2;
-}
-
-std::shared_ptr<const KdTree> Workbench::find_tree(Photons& photons, const Progress& progress) {
-    const std::lock_guard lock(*photons.mutex);
-    if (!photons.trees.positions)
-        photons.trees.positions = std::make_shared<const KdTree>(build_tree(m_device, photons.map, progress));
-    return photons.trees.positions;
-}
-
-std::shared_ptr<const ParameterRows> Workbench::find_parameter_rows(Photons& photons) {
-    if (!photons.trees.rows)
-        photons.trees.rows = std::make_shared<const ParameterRows>(make_parameter_rows(m_device, photons.map));
-    return photons.trees.rows;
-}
-
-std::shared_ptr<const ParameterTree> Workbench::find_parameter_tree(Photons& photons, const Progress& progress) {
-    const std::lock_guard lock(*photons.mutex);
-    if (!photons.trees.parameters)
-        photons.trees.parameters = std::make_shared<const ParameterTree>(
-            build_parameter_tree(m_device, photons.map, find_parameter_rows(photons), progress));
-    return photons.trees.parameters;
-}
-
-std::shared_ptr<const ParameterTree> Workbench::find_layered_tree(Photons& photons, const Progress& progress,
-                                                                  std::optional<LayerReach> reach) {
-    const std::lock_guard lock(*photons.mutex);
-    MapTrees& trees = photons.trees;
-    if (trees.layered && (!reach || *reach == trees.layered_for))
-        return trees.layered;
-    const LayerReach suited = reach.value_or(LayerReach{});
-    const float scale =
-        choose_parameter_scale(m_device, *find_parameter_tree(photons, progress), suited.k, suited.beta, progress);
-    trees.layered = std::make_shared<const ParameterTree>(
-        build_layered_tree(m_device, photons.map, find_parameter_rows(photons), scale, progress));
-    trees.layered_for = suited;
-    return trees.layered;
-}
-
-void Workbench::build_view_trees(Photons& photons, const Progress& progress) {
-    find_tree(photons, progress);
-    if (photons.map.parameters)
-        find_layered_tree(photons, progress);
-}
-
-std::vector<float> Workbench::measure_isotropy(Photons& photons, std::uint32_t k, const Progress& progress) {
-    return photonloupe::measure_isotropy(m_device, *find_parameter_tree(photons, progress), k, progress);
 }
 
 std::shared_ptr<const script::ScriptRun> Workbench::run_script(Photons& photons, const script::CompiledScript& script,
@@ -215,10 +119,12 @@ std::shared_ptr<const script::ScriptRun> Workbench::run_script(Photons& photons,
 
 script::ScriptRun Workbench::run_anew(Photons& photons, const script::CompiledScript& script,
                                       const script::RunSettings& settings, bool keeps, const Progress& progress) {
+    script::require_columns(script.program, photons.map);
     const std::shared_ptr<const Photons> before = share_photons(photons);
     const script::ScriptQueries queries{
         [&](script::NeighborQuery::Space space, std::span<const std::uint32_t> ids, std::uint32_t k, float beta) {
-            return find_neighbors(photons, {choose_space(space), ids, {}, {}, k, beta}, progress).ids;
+            const NearestQuery query{choose_space(space), ids, {}, {}, k, beta};
+            return find_neighbors(m_device, photons, query, progress).ids;
         },
         [&](std::span<const float> values, const std::vector<script::DeclaredParameter>& declared) {
             set_parameters(m_device, photons, {values.begin(), values.end()}, list_axes(declared));
@@ -251,6 +157,7 @@ std::shared_ptr<Photons> Workbench::take_relaxed(const Photons& source, RelaxedC
     photons->map.long_indices = std::move(before.long_indices);
     photons->report = source.report;
     photons->store = source.store;
+    photons->emission = source.emission;
     columns.state.traced = read_traced_positions(source);
     photons->state = std::make_shared<const RelaxedState>(std::move(columns.state));
     return photons;
@@ -258,21 +165,20 @@ std::shared_ptr<Photons> Workbench::take_relaxed(const Photons& source, RelaxedC
 
 Relaxation Workbench::start_relaxation(Photons& photons, const Scene* scene, const RelaxSettings& given,
                                        const Progress& progress) {
-    const RelaxSettings settings = complete_settings(given, std::nullopt, photons.map.parameters.has_value());
-    RelaxTrees trees{find_tree(photons, progress), nullptr, nullptr};
+    const CompleteSettings complete = complete_settings(m_device, photons, given, photons.emission, progress);
+    const RelaxSettings& settings = complete.settings;
+    RelaxTrees trees{find_tree(m_device, photons, progress), nullptr, nullptr};
     if (settings.uses_layers()) {
-        if (!settings.beta)
-            throw Error("relax: beta is not known yet; measure the photons' isotropy, or give a number");
         const bool seeks_constraint = settings.constrains() && settings.constraint == Space::parameter;
         const LayerReach reach{seeks_constraint ? *settings.constraint_neighbors : settings.neighbors,
                                static_cast<float>(*settings.beta)};
-        trees.by_parameters = find_parameter_tree(photons, progress);
-        trees.layered = find_layered_tree(photons, progress, reach);
+        trees.by_parameters = find_parameter_tree(m_device, photons, progress);
+        trees.layered = find_layered_tree(m_device, photons, progress, reach);
     }
     RelaxSurface surface;
     if (scene && settings.surface == SurfaceChoice::automatic)
         surface = {find_buffers(*scene), scene->origin};
-    return Relaxation(m_device, photons.map, trees, settings, surface, progress);
+    return Relaxation(m_device, photons.map, trees, complete, surface, progress);
 }
 
 RelaxedRun Workbench::relax_photons(Photons& photons, const Scene* scene, const RelaxSettings& settings,
@@ -280,7 +186,8 @@ RelaxedRun Workbench::relax_photons(Photons& photons, const Scene* scene, const 
     const std::shared_ptr<const RelaxedRun> relaxed = m_relaxed.find(make_key(photons, scene, settings), [&] {
         Relaxation relaxation = start_relaxation(photons, scene, settings, progress);
         RelaxedRun run;
-        while (relaxation.step_count() < relaxation.settings().steps.value())
+        run.settings = relaxation.settings();
+        while (relaxation.step_count() < run.settings.steps.value())
             run.steps.push_back(relaxation.step(progress));
         run.notes = relaxation.notes();
         run.off_surface_count = relaxation.count_off_surface();
@@ -296,14 +203,16 @@ RelaxedRun Workbench::relax_photons(Photons& photons, const Scene* scene, const 
 }
 
 gpu::Buffer Workbench::estimate_irradiance(Photons& photons, std::span<const glm::vec4> points,
-                                           std::span<const glm::vec4> normals, const EstimateSettings& settings,
+                                           std::span<const glm::vec4> normals, const EstimateSettings& given,
                                            const Progress& progress) {
-    require_k(choose_k(settings));
+    const EstimateSettings settings = complete_settings(given, photons.emission);
+    require_k(*settings.k);
     return m_irradiance
         .find(make_key(photons, points, normals, settings),
               [&] {
-                  return estimate_irradiance_at(m_device, photons.map.power_object, *find_tree(photons, progress),
-                                                points, normals, settings, progress);
+                  return estimate_irradiance_at(m_device, photons.map.power_object,
+                                                *find_tree(m_device, photons, progress), points, normals, settings,
+                                                progress);
               })
         ->share();
 }
@@ -314,12 +223,14 @@ Image Workbench::render_voronoi(const Scene& scene, Photons& photons, const Came
     const inspect::SurfaceView view = inspect::see_surfaces(m_device, scene, *find_buffers(scene), camera,
                                                             {settings.width, settings.height}, progress);
     const inspect::CellImage cells =
-        inspect::find_voronoi_cells(m_device, photons.map, *find_tree(photons, progress), view, {}, progress);
+        inspect::find_voronoi_cells(m_device, photons.map, *find_tree(m_device, photons, progress), view, {}, progress);
     return inspect::paint_cells(cells, inspect::list_encoded_colors(photons.map));
 }
 
-Image Workbench::render(const Scene& scene, Photons* photons, const CameraChoice& camera,
-                        const RenderSettings& settings, const Progress& progress) {
+Image Workbench::render(const Scene& scene, Photons* photons, const CameraChoice& camera, const RenderSettings& given,
+                        const Progress& progress) {
+    RenderSettings settings = given;
+    settings.estimate = complete_settings(given.estimate, photons ? photons->emission : std::nullopt);
     if (std::uint64_t{settings.width} * settings.height > MOST_REMEMBERED_PIXELS)
         return render_anew(scene, photons, camera, settings, progress);
     return *m_image.find(make_key(scene, photons, camera, settings),
@@ -345,7 +256,7 @@ Image Workbench::render_anew(const Scene& scene, Photons* photons, const CameraC
     if (needs_tree && !has_tree(*photons))
         expect_tree(m_device, photons->map.count);
     const std::shared_ptr<const KdTree> tree =
-        needs_tree ? find_tree(*photons, progress) : std::make_shared<const KdTree>();
+        needs_tree ? find_tree(m_device, *photons, progress) : std::make_shared<const KdTree>();
     const RenderedMap map{photons->map, *tree, photons->store};
     return render_image(m_device, scene, *find_buffers(scene), &map, camera, settings, progress);
 }

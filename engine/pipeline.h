@@ -4,39 +4,19 @@
 //   load_scene → trace_photons → run_script → relax_photons → estimate_irradiance / render → save
 #pragma once
 
-#include <memory>
-#include <optional>
-#include <span>
-
 #include "core/memo.h"
 #include "estimate/render_image.h"
 #include "known_photons.h"
-#include "photons/find_neighbors.h"
-#include "photons/layer_scale.h"
-#include "photons/search_space.h"
-#include "relax/isotropy.h"
 #include "relax/relaxation.h"
 #include "script/run/run_script.h"
 #include "trace/trace_photons.h"
 
 namespace photonloupe {
 
-// The k nearest photons of photons, which do not find themselves, or else of places.
-struct NearestQuery {
-    SearchSpace space = SearchSpace::world;
-    std::optional<std::span<const std::uint32_t>> ids;
-    std::span<const glm::vec4> places; // relative to the map's origin
-    std::span<const double> values;    // places of parameter space: a row of all parameters each
-    std::uint32_t k = 0;
-    float beta = 3.0f; // of layers
-    // The layer of places: that of a photon, or all whose parameters lie within ranges.
-    std::optional<std::uint32_t> center = {};
-    std::span<const float> low = {}, high = {};
-};
-
-// What all steps of a relaxation gave.
+// What all steps of a relaxation gave; settings are complete.
 struct RelaxedRun {
     std::shared_ptr<Photons> photons;
+    RelaxSettings settings;
     std::vector<StepReport> steps;
     std::vector<std::string> notes;
     std::uint64_t off_surface_count = 0;
@@ -59,20 +39,6 @@ public:
     // Gives photons the paths they had, by tracing the same emitted indices again.
     void record_paths(Photons& photons, const Scene& scene, TraceSettings settings, const Progress& progress);
 
-    Neighbors find_neighbors(Photons& photons, const NearestQuery& query, const Progress& progress);
-
-    // Of positions, of parameters alone, and of both: one built before, whatever it suits best, or where `reach` is
-    // given one that suits it.
-    std::shared_ptr<const KdTree> find_tree(Photons& photons, const Progress& progress = {});
-    std::shared_ptr<const ParameterTree> find_parameter_tree(Photons& photons, const Progress& progress = {});
-    std::shared_ptr<const ParameterTree> find_layered_tree(Photons& photons, const Progress& progress = {},
-                                                           std::optional<LayerReach> reach = {});
-    // All that views ask for, ahead.
-    void build_view_trees(Photons& photons, const Progress& progress = {});
-
-    // Axis ratios of photons in world space around their k neighbours in parameter space, by id ([SJL15] eq. 5).
-    std::vector<float> measure_isotropy(Photons& photons, std::uint32_t k, const Progress& progress);
-
     // Gives the photons the parameters and colors that a script computes; those that it does not set go, or are kept.
     // On an exception they keep what they have.
     std::shared_ptr<const script::ScriptRun> run_script(Photons& photons, const script::CompiledScript& script,
@@ -83,8 +49,7 @@ public:
     RelaxedRun relax_photons(Photons& photons, const Scene* scene, const RelaxSettings& settings,
                              const Progress& progress);
 
-    // Measures the constraint and stands ready for the first step; `scene` may be null. What is automatic is chosen, as
-    // of photons of unknown emission, but β is known where layers count. The photons must outlive it.
+    // Measures the constraint and stands ready for the first step; `scene` may be null. The photons must outlive it.
     Relaxation start_relaxation(Photons& photons, const Scene* scene, const RelaxSettings& settings,
                                 const Progress& progress);
 
@@ -108,10 +73,6 @@ public:
     gpu::Device& device() { return m_device; }
 
 private:
-    std::shared_ptr<const ParameterRows> find_parameter_rows(Photons& photons);
-    // Squared r_q of queries with rows; inf where fewer than k have parameters.
-    std::vector<float> find_radii2_of(Photons& photons, const NeighborQueries& queries, std::uint32_t k,
-                                      const Progress& progress);
     Image render_voronoi(const Scene& scene, Photons& photons, const CameraChoice& looks,
                          const RenderSettings& settings, const Progress& progress);
 

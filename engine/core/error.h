@@ -13,6 +13,12 @@ public:
     using std::runtime_error::runtime_error;
 };
 
+// A value that cannot be used.
+class ArgumentError : public Error {
+public:
+    using Error::Error;
+};
+
 // The scene file is missing, malformed, hostile, or cannot be lit.
 class SceneError : public Error {
 public:

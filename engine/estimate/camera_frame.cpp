@@ -2,7 +2,9 @@
 // Finds or makes the camera and brings it into map coordinates.
 #include "estimate/camera_frame.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <glm/geometric.hpp>
 
@@ -18,6 +20,16 @@ dvec3 to_vector(const std::array<double, 3>& v) {
 }
 std::array<double, 3> to_array(const dvec3& v) {
     return {v.x, v.y, v.z};
+}
+
+constexpr double SHORTEST = 1e-30; // of a vector with a direction
+
+// Of any length that a double has; empty: it has no direction.
+std::optional<dvec3> find_direction(const dvec3& vector) {
+    const double largest = std::max({std::abs(vector.x), std::abs(vector.y), std::abs(vector.z)});
+    if (!(largest > SHORTEST))
+        return std::nullopt;
+    return glm::normalize(vector / largest);
 }
 
 // Looks down at the bounds from above and in front, far enough to see all of them.
@@ -36,6 +48,23 @@ Camera fit_camera(const Scene& scene) {
 }
 
 } // namespace
+
+Camera aim_camera(const std::array<double, 3>& position, const std::array<double, 3>& target,
+                  const std::array<double, 3>& up, double yfov) {
+    const std::optional<dvec3> backward = find_direction(to_vector(position) - to_vector(target));
+    if (!backward)
+        throw ArgumentError("the camera's position and target are one point; it looks nowhere");
+    const std::optional<dvec3> right = find_direction(glm::cross(to_vector(up), *backward));
+    if (!right)
+        throw ArgumentError("the camera's up lies along its view; choose another");
+    Camera camera;
+    camera.position = position;
+    camera.right = to_array(*right);
+    camera.up = to_array(glm::cross(*backward, *right));
+    camera.backward = to_array(*backward);
+    camera.yfov = yfov;
+    return camera;
+}
 
 Camera find_camera(const Scene& scene, const CameraChoice& choice) {
     if (choice.placed)

@@ -17,6 +17,11 @@ struct CameraChoice {
 // Throws SceneError naming the cameras there are.
 Camera find_camera(const Scene& scene, const CameraChoice& choice);
 
+// From `position` to `target`, with `up` roughly upwards in its image. Throws ArgumentError where it looks nowhere, or
+// along `up`.
+Camera aim_camera(const std::array<double, 3>& position, const std::array<double, 3>& target,
+                  const std::array<double, 3>& up, double yfov);
+
 // The vertical field of view is kept whatever the image's aspect.
 shared::CameraFrame frame_camera(const Scene& scene, const Camera& camera, std::uint32_t width, std::uint32_t height);
 

@@ -44,7 +44,7 @@ void require_query(const Photons& photons, const LoupeQuery& query) {
 
 // One look: the query with its point in the map's coordinates.
 struct Look {
-    Workbench& bench;
+    gpu::Device& device;
     Photons& photons;
     const LoupeQuery& query;
     const Progress& progress;
@@ -64,7 +64,7 @@ std::optional<std::uint32_t> Look::find_center() const {
         return query.photon;
     const std::uint32_t count = query.normal ? CENTER_CANDIDATES : 1;
     std::vector<std::int32_t> near =
-        bench.find_neighbors(photons, {.places = place, .k = count}, progress).ids.read<std::int32_t>(count);
+        find_neighbors(device, photons, {.places = place, .k = count}, progress).ids.read<std::int32_t>(count);
     std::erase(near, -1);
     if (near.empty())
         return std::nullopt;
@@ -87,7 +87,7 @@ Neighbors Look::find_found(std::uint32_t center) const {
         asked.center = query.pinned.value_or(center);
     asked.low = query.low;
     asked.high = query.high;
-    return bench.find_neighbors(photons, asked, progress);
+    return find_neighbors(device, photons, asked, progress);
 }
 
 void Look::take_found(LoupeView& view, const Neighbors& found) const {
@@ -170,9 +170,9 @@ void Look::list_ellipses(LoupeView& view) const {
 
 } // namespace
 
-LoupeView look_through_loupe(Workbench& bench, Photons& photons, const LoupeQuery& query, const Progress& progress) {
+LoupeView look_through_loupe(gpu::Device& device, Photons& photons, const LoupeQuery& query, const Progress& progress) {
     require_query(photons, query);
-    Look look{bench, photons, query, progress, localize_points(photons.map, query.point)};
+    Look look{device, photons, query, progress, localize_points(photons.map, query.point)};
     if (query.photon)
         look.place = {glm::vec4(glm::vec3(photons.map.position_emitter.read<glm::vec4>(1, *query.photon)[0]), 0.0f)};
     LoupeView view;

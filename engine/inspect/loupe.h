@@ -10,7 +10,8 @@
 
 #include "inspect/settings.h"
 #include "inspect/spread.h"
-#include "pipeline.h"
+#include "known_photons.h"
+#include "photons/nearest_query.h"
 
 namespace photonloupe::inspect {
 
@@ -66,7 +67,7 @@ struct LoupeView {
 };
 
 // Throws Error for an id, a k or ranges that do not fit the map, and where the space lacks parameters.
-LoupeView look_through_loupe(Workbench& bench, Photons& photons, const LoupeQuery& query,
+LoupeView look_through_loupe(gpu::Device& device, Photons& photons, const LoupeQuery& query,
                              const Progress& progress = {});
 
 // A photon's path as a polyline, relative to the map's origin; interactions as in the map's path columns.

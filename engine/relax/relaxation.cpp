@@ -91,22 +91,24 @@ void bring_numbers(const std::vector<glm::vec4>& before, const KdTree& tree,
 } // namespace
 
 Relaxation::Relaxation(gpu::Device& device, const PhotonMap& photons, const RelaxTrees& trees,
-                       const RelaxSettings& settings, RelaxSurface surface, const Progress& progress)
-    : m_device(device), m_photons(photons), m_settings(settings), m_surface(std::move(surface)),
-      m_tree(copy_tree(device, settings.repel == Space::parameter ? trees.layered->tree : *trees.by_positions)) {
+                       const CompleteSettings& complete, RelaxSurface surface, const Progress& progress)
+    : m_device(device), m_photons(photons), m_settings(complete.settings), m_surface(std::move(surface)),
+      m_tree(
+          copy_tree(device, complete.settings.repel == Space::parameter ? trees.layered->tree : *trees.by_positions)) {
     const std::uint64_t count = photons.count;
     if (count == 0)
         return;
     m_moves = make_filled(device, count * sizeof(glm::vec4), "moves");
     m_radii = make_filled(device, count * RADIUS_BYTES, "radii");
     m_flat_axes = find_flat_axes(m_tree);
-    if (settings.repel == Space::parameter) {
+    if (m_settings.repel == Space::parameter) {
         m_parameters = trees.layered->parameters;
         m_parameter_scale = trees.layered->parameter_scale;
     }
     m_device.compile_ahead(list_kernels());
     constrain(trees, progress);
     take_layers(trees, progress);
+    m_notes.insert(m_notes.begin(), complete.notes.begin(), complete.notes.end());
     if (m_surface.scene)
         shift_photons();
     m_start = gpu::Buffer(device, count * sizeof(glm::vec4), "photons before relaxation");
@@ -115,7 +117,7 @@ Relaxation::Relaxation(gpu::Device& device, const PhotonMap& photons, const Rela
     commands.copy(m_tree.positions, 0, m_start, 0, count * sizeof(glm::vec4));
     commands.run();
     m_spacing = find_spacing(m_tree);
-    if (settings.diffuse_flux)
+    if (m_settings.diffuse_flux)
         order_power();
 }
 

@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "relax/complete_settings.h"
 #include "relax/constraint.h"
 #include "relax/relaxed_state.h"
 #include "scene/scene_buffers.h"
@@ -42,15 +43,14 @@ struct RelaxTrees {
 
 class Relaxation {
 public:
-    // Measures the constraint; settings are complete, β too where layers count. Without a surface's scene photons move
-    // in their tangent planes.
-    Relaxation(gpu::Device& device, const PhotonMap& photons, const RelaxTrees& trees, const RelaxSettings& settings,
+    // Measures the constraint. Without a surface's scene photons move in their tangent planes.
+    Relaxation(gpu::Device& device, const PhotonMap& photons, const RelaxTrees& trees, const CompleteSettings& complete,
                RelaxSurface surface, const Progress& progress);
 
     // One step (Jacobi: all photons see the places before it).
     StepReport step(const Progress& progress);
 
-    // What makes parameters useless here, with the cure.
+    // What was automatic and could not be found, and what makes parameters useless here, with the cure.
     const std::vector<std::string>& notes() const { return m_notes; }
     std::uint32_t step_count() const { return m_step; }
     const RelaxSettings& settings() const { return m_settings; }

@@ -56,7 +56,7 @@ void look(Workspace& workspace, Photons& photons) {
     if (workspace.state.loupe.has_point) {
         query.point = workspace.state.loupe.point;
         query.normal = workspace.loupe_normal;
-        workspace.loupe = inspect::look_through_loupe(workspace.bench, photons, query);
+        workspace.loupe = inspect::look_through_loupe(workspace.device, photons, query);
     }
     for (const std::uint32_t pin : workspace.state.loupe.pins) {
         if (pin >= photons.map.count)
@@ -66,7 +66,7 @@ void look(Workspace& workspace, Photons& photons) {
         around.low.clear();
         around.high.clear();
         around.pinned.reset();
-        workspace.pinned[pin] = inspect::look_through_loupe(workspace.bench, photons, around);
+        workspace.pinned[pin] = inspect::look_through_loupe(workspace.device, photons, around);
     }
 }
 

@@ -136,4 +136,9 @@ struct StudioState {
     bool operator==(const StudioState&) const = default;
 };
 
+// Whether what is rendered is to be relaxed.
+inline bool shows_relaxed(const StudioState& state) {
+    return state.view.shows_relaxed && state.relax.is_wanted();
+}
+
 } // namespace photonloupe::studio

@@ -61,8 +61,9 @@ private:
 
 } // namespace
 
-Studio::Studio(gpu::Device& device, const StudioOptions& options)
-    : m_bench(device), m_workspace(device, m_bench), m_canvas(device, check_options(options).width, options.height) {
+Studio::Studio(Workbench& bench, const StudioOptions& options)
+    : m_workspace(bench), m_canvas(bench.device(), check_options(options).width, options.height) {
+    gpu::Device& device = bench.device();
     IMGUI_CHECKVERSION();
     // Whoever makes the first context makes it current: it must not stay so once it is gone.
     const Current none(ImGui::GetCurrentContext(), ImPlot::GetCurrentContext());
@@ -267,7 +268,7 @@ std::vector<std::uint32_t> Studio::read_image() {
 std::vector<std::uint32_t> Studio::read_panel(const std::string& name, std::uint32_t width, std::uint32_t height,
                                               float scale) {
     require_panel(name);
-    Studio alone(m_workspace.device, {width, height, scale, true, {}});
+    Studio alone(m_workspace.bench, {width, height, scale, true, {}});
     Workspace& copy = alone.m_workspace;
     copy.solo = name;
     copy.state = m_workspace.state;

@@ -38,7 +38,7 @@ struct FrameStatistics {
 class Studio {
 public:
     // Throws DeviceError on a device that cannot draw, or where no window can be opened.
-    Studio(gpu::Device& device, const StudioOptions& options);
+    Studio(Workbench& bench, const StudioOptions& options);
     ~Studio();
     Studio(const Studio&) = delete;
     Studio& operator=(const Studio&) = delete;
@@ -105,7 +105,6 @@ private:
     void lay_out_safely();
     bool has_input_left() const;
 
-    Workbench m_bench; // of this thread: the work has its own
     Workspace m_workspace;
     ImGuiContext* m_context = nullptr;
     ImPlotContext* m_plots = nullptr;

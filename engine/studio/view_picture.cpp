@@ -140,7 +140,7 @@ void ViewPicture::draw_cells(Workspace& workspace, Photons& photons, std::string
         return;
     }
     const ViewState& view = workspace.state.view;
-    const std::shared_ptr<const KdTree> tree = workspace.bench.find_tree(photons);
+    const std::shared_ptr<const KdTree> tree = find_tree(workspace.device, photons);
     const bool is_tree = view.mode == ViewMode::kd_tree;
     const std::optional<std::uint32_t> depth =
         view.tree_depth < 0 ? std::nullopt : std::optional(static_cast<std::uint32_t>(view.tree_depth));

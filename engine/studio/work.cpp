@@ -2,44 +2,39 @@
 // Compares what the state asks for with what has been done.
 #include "studio/work.h"
 
-#include <nlohmann/json.hpp>
+#include <sstream>
 
-#include "core/setting_json.h"
-#include "studio/camera.h"
+#include "core/settings.h"
 #include "studio/stage_choices.h"
 
 namespace photonloupe::studio {
 namespace {
 
-using Settings = nlohmann::json;
-
-// By the names that Python has for them.
-Settings write_settings(const std::vector<Setting>& settings) {
-    Settings written = Settings::object();
-    for (const Setting& setting : settings)
-        written[setting.about.name] = write_json(setting);
-    return written;
+template <class... Values>
+std::string write(const Values&... values) {
+    std::ostringstream text;
+    text << std::hexfloat;
+    ((text << values << '\n'), ...);
+    return text.str();
 }
 
-Settings describe_trace(const TraceState& trace) {
-    if (!trace.map.empty())
-        return {{"map", trace.map}};
-    TraceState copy = trace;
-    return {{"scene", trace.scene}, {"settings", write_settings(list_settings<TraceSettings>(copy))}};
+template <class Settings>
+std::string write_settings(Settings settings) {
+    return write_key(list_settings(settings));
 }
 
-Settings describe_camera(const CameraPose& pose) {
-    return {{"position", pose.position}, {"right", pose.right},   {"up", pose.up},
-            {"backward", pose.backward}, {"target", pose.target}, {"yfov", pose.yfov}};
+std::string write_script(const ScriptState& script) {
+    std::string text = write(script.ran, script.path);
+    for (const auto& [name, value] : script.values)
+        text += write(name, value);
+    return text;
 }
 
-// Adds a job unless it has been done; returns true when it has to be done first.
-bool ask(std::optional<Job>& job, const DoneWork& done, const char* kind, const std::string& key, Settings settings) {
-    const auto found = done.find(kind);
-    if (found != done.end() && found->second == key)
-        return false;
-    job = Job{kind, key, settings.dump(-1, ' ', false, Settings::error_handler_t::replace)};
-    return true;
+std::string write_pose(const CameraPose& pose) {
+    std::string text = write(pose.yfov);
+    for (const auto& vector : {pose.position, pose.target, pose.up})
+        text += write(vector[0], vector[1], vector[2]);
+    return text;
 }
 
 } // namespace
@@ -47,48 +42,39 @@ bool ask(std::optional<Job>& job, const DoneWork& done, const char* kind, const 
 std::optional<Job> plan_work(const StudioState& state, const CameraPose& camera, const Wanted& wanted,
                              const Holding& holding, const DoneWork& done) {
     std::optional<Job> job;
-    const Settings trace = describe_trace(state.trace);
-    const std::string trace_key = trace.dump();
+    // Plans a job unless it has been done; true when it has to be done first.
+    const auto ask = [&](const char* kind, const std::string& key) {
+        const auto found = done.find(kind);
+        if (found != done.end() && found->second == key)
+            return false;
+        job = Job{kind, key, state, camera};
+        return true;
+    };
     if (state.trace.scene.empty() && state.trace.map.empty())
         return job;
-    if (ask(job, done, state.trace.map.empty() ? "trace" : "map", trace_key, trace))
+    const bool is_traced = state.trace.map.empty();
+    const std::string traced =
+        is_traced ? write(state.trace.scene) + write_settings<TraceSettings>(state.trace) : write(state.trace.map);
+    if (ask(is_traced ? "trace" : "map", traced))
         return job;
     if (!holding.photons)
         return job;
     // Without a script the photons are as they were traced.
-    std::string script_key = trace_key;
-    Settings script{{"text", ""}};
-    if (!state.script.ran.empty()) {
-        script = {{"text", state.script.ran}, {"path", state.script.path}, {"values", state.script.values}};
-        script_key += script.dump(-1, ' ', false, Settings::error_handler_t::replace);
-    }
-    if (ask(job, done, "script", script_key, script))
+    const std::string scripted = traced + (state.script.ran.empty() ? "" : write_script(state.script));
+    if (ask("script", scripted))
         return job;
-    if (state.relax.is_wanted()) {
-        RelaxSettings used = state.relax.used;
-        if (!used.constraint)
-            used.constraint = holding.parameters ? Space::parameter : Space::world;
-        Settings relax{{"settings", write_settings(list_settings(used))}};
-        const std::string settings_key = script_key + relax.dump();
-        relax["made"] = state.relax.made;
-        relax["settings_key"] = settings_key;
-        if (ask(job, done, "relax", settings_key + std::to_string(state.relax.made), relax))
-            return job;
-    }
-    const std::string version = std::to_string(holding.photons_version);
-    if (wanted.isotropy && holding.parameters && ask(job, done, "isotropy", script_key, Settings::object()))
+    if (state.relax.is_wanted() && ask("relax", scripted + write_settings(state.relax.used) + write(state.relax.made)))
+        return job;
+    if (wanted.isotropy && holding.parameters && ask("isotropy", scripted))
         return job;
     if (wanted.image && holding.scene) {
         ImageState image = state.image;
-        Settings render{{"camera", describe_camera(camera)},
-                        {"settings", write_settings(list_choices(image))},
-                        {"relaxed", state.view.shows_relaxed && state.relax.is_wanted()}};
-        if (ask(job, done, "render", version + render.dump(), render))
+        const std::string rendered =
+            write(holding.photons_version, shows_relaxed(state)) + write_pose(camera) + write_key(list_choices(image));
+        if (ask("render", rendered))
             return job;
-        const Settings reference{{"path", state.image.reference}};
-        if (!state.image.reference.empty() &&
-            ask(job, done, "reference", version + render.dump() + reference.dump(), reference))
-            return job;
+        if (!state.image.reference.empty())
+            ask("reference", rendered + write(state.image.reference));
     }
     return job;
 }

@@ -6,17 +6,16 @@
 #include <optional>
 #include <string>
 
-#include "studio/state.h"
+#include "studio/camera.h"
 
 namespace photonloupe::studio {
 
-struct CameraPose;
-
-// A piece of work for whoever runs the stages. `settings` is JSON.
+// A piece of work for whoever runs the stages: what was chosen when it was asked for.
 struct Job {
-    std::string kind; // scene, trace, map, script, relax, isotropy, render, reference
+    std::string kind; // trace, map, script, relax, isotropy, render, reference
     std::string key;  // of all that decides its result
-    std::string settings;
+    StudioState state;
+    CameraPose camera;
 };
 
 // What has been done, or has failed and waits for a change: job kind to key.

@@ -94,7 +94,7 @@ const inspect::Column& Workspace::find_column(const std::string& name, Photons* 
             throw Error("isotropy is being measured");
         return m_columns[key] = {name, "isotropy t", results.isotropy->values, 0, 1};
     }
-    inspect::Column column = inspect::find_column(bench, *photons, name);
+    inspect::Column column = inspect::find_column(device, *photons, name);
     if (!is_parameter(photons->map, name)) // bounds of parameters were declared
         leave_outliers_out(column);
     return m_columns[key] = std::move(column);

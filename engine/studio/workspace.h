@@ -49,7 +49,7 @@ struct Activity {
 };
 
 struct Workspace {
-    Workspace(gpu::Device& opened, Workbench& stages) : device(opened), bench(stages), pixels(opened) {}
+    explicit Workspace(Workbench& stages) : device(stages.device()), bench(stages), pixels(device) {}
 
     gpu::Device& device;
     Workbench& bench;

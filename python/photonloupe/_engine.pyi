@@ -14,6 +14,9 @@ version: str = '0.1.0'
 class PhotonLoupeError(Exception):
     pass
 
+class ArgumentError(PhotonLoupeError, ValueError):
+    pass
+
 class SceneError(PhotonLoupeError):
     pass
 
@@ -31,13 +34,8 @@ def describe_settings(stage: str) -> list:
     Every setting of trace, relax, irradiance, render or loupe: name, kind, default, range …
     """
 
-def complete_relaxation(given: dict, emission: str | None, has_parameters: bool) -> dict:
-    """
-    All settings of a relaxation, what is automatic filled in but for beta.
-    """
-
-def choose_k(emission: str | None) -> int:
-    """How many photons an estimate gathers where nothing is said."""
+def choose_k(photons: PhotonMap | None) -> int:
+    """How many photons an estimate gathers of a map where nothing is said."""
 
 def list_devices() -> list:
     """Every Vulkan device of this machine."""
@@ -116,8 +114,10 @@ class PhotonMap:
     def column(self, name: str) -> object:
         """The column, read-only; None: there is none."""
 
-def photons_from_columns(device: Device, columns: dict, axes: Sequence[tuple[str, float, float, float]], store: str, emitted: int) -> PhotonMap:
-    """Upload checked columns as a photon map; axes as of its parameters."""
+def photons_from_columns(device: Device, columns: dict, axes: Sequence[tuple[str, float, float, float]], origin: dict, emitted: int) -> PhotonMap:
+    """
+    Upload checked columns as a photon map; axes as of its parameters, origin: store and emission where they are known.
+    """
 
 def share_photons(device: Device, photons: PhotonMap) -> PhotonMap:
     """The same photons in the same memory, with parameters of their own."""
@@ -159,7 +159,7 @@ class Script:
     def exposed(self) -> list: ...
 
     @property
-    def columns(self) -> list: ...
+    def columns(self) -> list[str]: ...
 
     @property
     def passes(self) -> list: ...
@@ -186,6 +186,10 @@ class Relaxation:
         """One step; what it did."""
 
     @property
+    def settings(self) -> dict:
+        """All of them, what is automatic filled in."""
+
+    @property
     def notes(self) -> list[str]:
         """What makes parameters useless here, with the cure."""
 
@@ -193,28 +197,29 @@ class Relaxation:
     def off_surface(self) -> int:
         """Photons that moved in their tangent plane."""
 
-    def sample_distances(self, count: int, k: int) -> NDArray[numpy.float32]:
-        """
-        Distances (m, k) of photons spread evenly over the map to their nearest, where they are now.
-        """
-
     def read(self) -> PhotonMap:
         """The map as it is now."""
 
-def measure_isotropy(device: Device, photons: PhotonMap, k: int, progress: object | None = None) -> NDArray[numpy.float32]:
+def find_optimal_beta(device: Device, photons: PhotonMap, k: int, clip: float, progress: object | None = None) -> tuple[float, float, NDArray[numpy.float32]] | None:
     """
-    Axis ratios (n,) of the world positions of each photon's k neighbours in parameter space; NaN: none.
+    β, t_β and the axis ratios (n,) they come from; None: no photon has one.
     """
+
+def explain_no_ratio(photons: PhotonMap) -> str:
+    """Why β cannot be found, and what to do."""
 
 def relax_photons(device: Device, photons: PhotonMap, scene: object | None, settings: dict, progress: object | None = None) -> tuple:
     """
-    All steps of a relaxation: the map, what each step did, notes, photons off their surface; settings as start_relaxation.
+    All steps of a relaxation: the map, and settings, steps, notes, off_surface; settings as start_relaxation.
     """
 
 def start_relaxation(device: Device, photons: PhotonMap, scene: object | None, settings: dict, progress: object | None = None) -> Relaxation:
     """
     Measure the constraint and stand ready; settings as describe_settings("relax") has them.
     """
+
+def aim_camera(position: Sequence[float], target: Sequence[float], up: Sequence[float], yfov: float) -> dict:
+    """A camera with its axes, that looks from one point at another."""
 
 def estimate_irradiance(device: Device, photons: PhotonMap, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', writable=False)], normals: Annotated[NDArray[numpy.float32], dict(shape=(None, 3), order='C', writable=False)], settings: dict, progress: object | None = None) -> NDArray[numpy.float32]:
     """
@@ -371,42 +376,41 @@ class Studio:
 
     def widgets(self) -> list[str]: ...
 
-    def take_job(self) -> list[str] | None:
+    def take_turn(self) -> bool:
         """
-        (kind, key, settings as JSON) of the next piece of work, once; None: there is none.
+        Begin the next job; True: it has been done, and a frame should show it.
         """
 
-    def end_job(self, arg0: str, arg1: str, arg2: str, /) -> None: ...
+    @property
+    def is_busy(self) -> bool: ...
 
-    def report_progress(self, arg0: str, arg1: float, /) -> bool: ...
+    @property
+    def job_counts(self) -> dict[str, int]:
+        """Jobs begun, by kind."""
+
+    def close(self) -> None: ...
 
     def stop_job(self) -> None: ...
+
+    def open_scene(self, arg: Scene, /) -> None: ...
+
+    def made(self) -> dict:
+        """
+        scene, photons, trace (settings; None: from a file), script, relaxed, relaxation; None where there is none.
+        """
+
+    def rendered(self) -> tuple[Annotated[NDArray[numpy.float32], dict(shape=(None, None, None))], dict, bool] | None:
+        """
+        The last rendered view, its settings, and whether its photons are relaxed.
+        """
 
     def take_requests(self) -> list[str]: ...
 
     def say(self, arg0: str, arg1: bool, /) -> None: ...
 
-    def deliver_photons(self, scene: Scene | None, photons: PhotonMap, has_same_paths: bool) -> None: ...
-
-    def deliver_relaxed(self, photons: PhotonMap, steps: Sequence[Sequence[float]], stopped_at: int | None) -> None: ...
-
-    def deliver_steps(self, arg: Sequence[Sequence[float]], /) -> None: ...
-
-    def forget_script(self) -> None: ...
-
-    def deliver_isotropy(self, arg0: Annotated[NDArray[numpy.float32], dict(shape=(None,), order='C', writable=False)], arg1: float, arg2: float, /) -> None: ...
-
-    def deliver_script(self, arg0: list, arg1: Sequence[str], arg2: Sequence[str], arg3: float, /) -> None: ...
-
     def forget_work(self, arg: str, /) -> None: ...
 
-    def deliver_images(self, image: Annotated[NDArray[numpy.float32], dict(shape=(None, None, 3), order='C', writable=False)] | None, colors: Annotated[NDArray[numpy.float32], dict(shape=(None, None, 3), order='C', writable=False)] | None) -> None: ...
-
-    def deliver_comparison(self, reference: Annotated[NDArray[numpy.float32], dict(shape=(None, None, 3), order='C', writable=False)] | None, error: Annotated[NDArray[numpy.float32], dict(shape=(None, None, 3), order='C', writable=False)] | None, rmse: float, relmse: float, flip: float) -> None: ...
-
     def offer_restore(self, arg: str, /) -> None: ...
-
-    def deliver_times(self, arg: Mapping[str, float], /) -> None: ...
 
     def deliver_examples(self, arg: Sequence[tuple[str, str]], /) -> None: ...
 
@@ -439,8 +443,10 @@ class Studio:
 
     def select(self, ids: Sequence[int] | None) -> None: ...
 
-def open_studio(device: Device, size: tuple[int, int], scale: float, offscreen: bool) -> Studio:
-    """The interactive tool, in a window or without."""
+def open_studio(device: Device, size: tuple[int, int], scale: float, offscreen: bool, threaded: bool, load_map: object, compare: object) -> Studio:
+    """
+    The interactive tool, in a window or without, that works in a thread or in its frames. load_map(path): the map, its scene or None, remarks. compare(pixels, path): reference, error map or None, rmse, relmse, flip, and why there is none.
+    """
 
 def find_cache_folder() -> str:
     """The per-user folder for what can be made again; empty: there is none."""

@@ -3,18 +3,16 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from photonloupe import _engine
 from photonloupe.checks import check_number
 from photonloupe.errors import ArgumentError
 from photonloupe.scene import Scene
 
 _LARGEST = 1e30
-# Closer to parallel than this, `up` says nothing about which way is up.
-_LEAST_ANGLE = 1e-12
 
 
 @dataclass(frozen=True)
@@ -54,31 +52,13 @@ def check_camera(scene: Scene, camera: str | Camera | None) -> str | dict[str, A
         If the scene has no camera of that name, or a camera looks nowhere.
     """
     if isinstance(camera, Camera):
-        return _find_axes(camera)
+        position, target, up = (_check_vector(name, getattr(camera, name)) for name in ("position", "target", "up"))
+        return dict(_engine.aim_camera(position, target, up, check_number("yfov", camera.yfov, 1e-4, 3.0)))
     names = [str(entry["name"]) for entry in scene.cameras]
     if camera is not None and camera not in names:
         there = f"there are {', '.join(names)}" if names else "the scene has none"
         raise ArgumentError(f"there is no camera {camera!r}; {there}")
     return camera or ""
-
-
-def _find_axes(camera: Camera) -> dict[str, Any]:
-    position = _check_vector("position", camera.position)
-    target = _check_vector("target", camera.target)
-    up = _check_vector("up", camera.up)
-    backward = _normalize([p - t for p, t in zip(position, target, strict=True)])
-    if backward is None:
-        raise ArgumentError("the camera's position and target are one point; it looks nowhere")
-    right = _normalize(_cross(up, backward))
-    if right is None:
-        raise ArgumentError("the camera's up lies along its view; choose another")
-    return {
-        "position": position,
-        "right": right,
-        "up": _cross(backward, right),
-        "backward": backward,
-        "yfov": check_number("yfov", camera.yfov, 1e-4, 3.0),
-    }
 
 
 def _check_vector(name: str, values: Sequence[float]) -> list[float]:
@@ -89,16 +69,3 @@ def _check_vector(name: str, values: Sequence[float]) -> list[float]:
     if len(numbers) != 3:
         raise ArgumentError(f"the camera's {name} must be three numbers, not {values!r}")
     return [check_number(f"the camera's {name}", number, -_LARGEST, _LARGEST) for number in numbers]
-
-
-def _cross(a: Sequence[float], b: Sequence[float]) -> list[float]:
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-
-
-def _normalize(vector: Sequence[float]) -> list[float] | None:
-    largest = max(abs(value) for value in vector)
-    if not largest > _LEAST_ANGLE * 1e-18:
-        return None
-    scaled = [value / largest for value in vector]
-    length = math.hypot(*scaled)
-    return [value / length for value in scaled]

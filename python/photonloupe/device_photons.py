@@ -3,11 +3,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any, Self
 
 from photonloupe import _engine
-from photonloupe.columns import PATH_NAMES
 from photonloupe.device import Device
 from photonloupe.errors import PhotonLoupeError
 from photonloupe.photon_columns import PhotonColumns
@@ -90,23 +89,6 @@ class DevicePhotons(PhotonColumns):
         scene, settings = self._find_scene(), {**self._settings, "emitted": None, "paths": True}
         with follow_progress(progress) as callback:
             _engine.record_paths(self._device._native, self._native, scene._native, settings, callback)
-
-    def require_columns(self, names: Sequence[str]) -> None:
-        """Record the path columns among those named, if need be.
-
-        Raises
-        ------
-        PhotonLoupeError
-            If the map lacks one of them for good.
-        """
-        wanted = [name for name in PATH_NAMES if name in names]
-        if wanted:
-            self.record_paths()
-        missing = [name for name in wanted if name not in self.recorded]
-        if missing:
-            raise PhotonLoupeError(
-                f"the script reads {missing[0]}, which this map does not have; give it to from_arrays"
-            )
 
     def take_script(self, script: Mapping[str, Any]) -> None:
         """Note the script that gave the engine's map other parameters and colors."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from photonloupe._engine import Cancelled, DeviceError, DeviceMemoryError, PhotonLoupeError, SceneError
+from photonloupe._engine import ArgumentError, Cancelled, DeviceError, DeviceMemoryError, PhotonLoupeError, SceneError
 
 __all__ = [
     "ArgumentError",
@@ -17,10 +17,6 @@ __all__ = [
     "SceneError",
     "ScriptError",
 ]
-
-
-class ArgumentError(PhotonLoupeError, ValueError):
-    """A function was called with a value it cannot use."""
 
 
 class FileFormatError(PhotonLoupeError, OSError):

@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
-import math
+import logging
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,8 @@ from photonloupe.device_photons import DevicePhotons
 from photonloupe.errors import ArgumentError
 from photonloupe.progress import ProgressLike, follow_progress
 from photonloupe.settings import list_settings
+
+LOG = logging.getLogger("photonloupe")
 
 BINS = 64
 BETA_NEIGHBORS, CLIPPED_SHARE = 100, 0.05  # where nothing is said
@@ -85,38 +88,37 @@ def optimal_beta(
     >>> bool(1.9 < pl.optimal_beta(photons) < 2.4)
     True
     """
-    beta = find_beta(photons, k, clip, progress)
+    beta = _find_beta(photons, k, clip, progress)
     if beta is None:
-        raise ArgumentError(explain_no_ratio(photons))
+        raise ArgumentError(_engine.explain_no_ratio(photons._native))
     return beta
 
 
-def explain_no_ratio(photons: DevicePhotons) -> str:
-    """Say why β cannot be found, and what to do."""
-    named = ", ".join(repr(name) for name in photons.parameter_names)
-    return (
-        f"no photon has an axis ratio: by {named} more than k photons are alike, or none has parameters, or all are in "
-        "one place; then every β gives the same layers, so give a number, or parameters that differ"
-    )
+def check_beta(value: Any, photons: DevicePhotons, progress: ProgressLike = None) -> float:
+    """Return β as a number, found from the map when it is ``"auto"``; the default where every β would do."""
+    setting = list_settings("relax")["beta"]
+    checked = setting.check(value)
+    if checked is not None:
+        return float(checked)
+    beta = _find_beta(photons, BETA_NEIGHBORS, CLIPPED_SHARE, progress)
+    if beta is None:
+        LOG.warning(_engine.explain_no_ratio(photons._native))
+    return float(setting.default if beta is None else beta)
 
 
-def find_beta(photons: DevicePhotons, k: int, clip: float, progress: ProgressLike) -> OptimalBeta | None:
-    """Find the same, or None where no photon has an axis ratio: then the layers are the same whatever β is."""
+def _find_beta(photons: DevicePhotons, k: int, clip: float, progress: ProgressLike) -> OptimalBeta | None:
+    """Find β, or None where no photon has an axis ratio: then the layers are the same whatever it is."""
     k = check_count("k", k, 3, list_settings("relax")["neighbors"].limits[1])
     clip = check_number("clip", clip, 0.0, 0.5)
-    if "parameters" not in photons.recorded:
-        raise ArgumentError("optimal_beta needs parameters; set_parameters() or a script sets them")
     with follow_progress(progress) as callback:
-        values = np.asarray(_engine.measure_isotropy(photons.device._native, photons._native, k, callback))
-    known = values[~np.isnan(values)]
-    if len(known) == 0:
+        found = _engine.find_optimal_beta(photons.device._native, photons._native, k, clip, callback)
+    if found is None:
         return None
+    number, t_beta, values = found
+    known = values[~np.isnan(values)]
     edges = np.linspace(0.0, 1.0, BINS + 1)
     histogram = np.histogram(known, edges)[0].astype(np.int64)
-    t_beta = float(np.quantile(known, clip))
-    if t_beta <= 0.0:
-        raise ArgumentError(f"a share {clip:g} of the photons has axis ratio 0: no β is large enough")
-    beta = OptimalBeta(math.sqrt(1.0 / t_beta))
+    beta = OptimalBeta(number)
     beta.t_beta = t_beta
     beta.isotropy = Isotropy(values, edges, histogram, np.cumsum(histogram) / len(known))
     return beta

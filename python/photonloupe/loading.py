@@ -36,12 +36,13 @@ def load_photons(path: str | os.PathLike[str], *, device: Device | int | str | N
     values = columns.get("parameters")
     axes = [] if values is None else list_axes(read_parameters(meta.get("parameters", []), values))
     opened = open_device(device)
-    # What a map stores decides what a composite adds to it.
-    store = meta["settings"].get("store", "caustic")
-    if store not in list_settings("trace")["store"].choices or not 0 <= meta["emitted"] <= MAX_EMITTED:
+    # What a map stores decides what a composite adds to it, how it was emitted what suits it.
+    origin = {name: meta["settings"][name] for name in ("store", "emission") if name in meta["settings"]}
+    is_known = all(value in list_settings("trace")[name].choices for name, value in origin.items())
+    if not is_known or not 0 <= meta["emitted"] <= MAX_EMITTED:
         raise FileFormatError(f"{path} does not say rightly what was emitted and stored; save the map again")
     return PhotonMap(
-        _engine.photons_from_columns(opened._native, columns, axes, store, meta["emitted"]),
+        _engine.photons_from_columns(opened._native, columns, axes, origin, meta["emitted"]),
         opened,
         settings=meta["settings"],
         report=meta["report"],

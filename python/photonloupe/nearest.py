@@ -13,9 +13,9 @@ from photonloupe import _engine
 from photonloupe.checks import check_count, check_number, check_rows, check_vectors
 from photonloupe.device_photons import DevicePhotons
 from photonloupe.errors import ArgumentError
+from photonloupe.isotropy import check_beta
 from photonloupe.parameters import FIRST_DIMENSION, Parameter
 from photonloupe.progress import ProgressLike, follow_progress
-from photonloupe.relax_settings import check_beta
 from photonloupe.settings import list_settings
 
 Found = tuple[NDArray[np.int32], NDArray[np.float32]]

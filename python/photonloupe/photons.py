@@ -114,7 +114,7 @@ class PhotonMap(PhotonStages):
         emitted = least if emitted is None else check_count("emitted", emitted, least, MAX_EMITTED)
         provenance = {**describe_origin(None, surface, {}), "source": "arrays"}
         opened = open_device(device)
-        native = _engine.photons_from_columns(opened._native, columns, [], "caustic", emitted)
+        native = _engine.photons_from_columns(opened._native, columns, [], {}, emitted)
         return cls(native, opened, provenance=provenance, scene=surface)
 
     @property

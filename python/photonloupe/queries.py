@@ -3,8 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, Unpack
+from typing import Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,12 +14,7 @@ from photonloupe.device_photons import DevicePhotons
 from photonloupe.errors import ArgumentError
 from photonloupe.progress import ProgressLike, follow_progress
 from photonloupe.setting_keywords import IrradianceKeywords
-from photonloupe.settings import check_settings, name_emission
-
-
-def find_k(settings: Mapping[str, Any], k: int | None) -> int:
-    """Return the number of photons an estimate gathers of a map: those that were asked for, or what suits it."""
-    return _engine.choose_k(name_emission(settings)) if k is None else k
+from photonloupe.settings import check_settings
 
 
 def estimate_irradiance(
@@ -33,7 +27,6 @@ def estimate_irradiance(
 ) -> NDArray[np.float32]:
     """Check the query and run it; see `PhotonMap.irradiance`."""
     settings = check_settings("irradiance", given)
-    settings["k"] = find_k(photons.settings, settings["k"])
     where = check_vectors("points", points)
     facing = np.asarray(normals)
     if facing.ndim == 1:

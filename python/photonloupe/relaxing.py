@@ -7,16 +7,12 @@ import logging
 from collections.abc import Mapping, Sequence
 from typing import Any, Generic, TypeVar, Unpack
 
-import numpy as np
-from numpy.typing import NDArray
-
 from photonloupe import _engine
 from photonloupe.device_photons import DevicePhotons
 from photonloupe.progress import ProgressLike, follow_progress
-from photonloupe.relax_settings import complete_settings
 from photonloupe.scene import Scene
 from photonloupe.setting_keywords import AllRelaxKeywords
-from photonloupe.settings import takes_settings
+from photonloupe.settings import check_settings, takes_settings
 
 LOG = logging.getLogger("photonloupe")
 
@@ -51,13 +47,14 @@ class Relaxation(Generic[PhotonsT]):
         self, photons: PhotonsT, *, progress: ProgressLike = None, **settings: Unpack[AllRelaxKeywords]
     ) -> None:
         self._source = photons
-        self._settings = complete_settings(photons, progress, **settings)
+        checked = check_settings("relax", settings)
         self._rows: list[dict[str, Any]] = []
-        self._scene = _find_surface(photons, self._settings)
+        self._scene = _find_surface(photons, checked)
         with follow_progress(progress) as callback:
             self._native = _engine.start_relaxation(
-                photons.device._native, photons._native, _take_native(self._scene), self._settings, callback
+                photons.device._native, photons._native, _take_native(self._scene), checked, callback
             )
+        self._settings = dict(self._native.settings)
         _warn(self.notes)
 
     def __repr__(self) -> str:
@@ -111,30 +108,32 @@ class Relaxation(Generic[PhotonsT]):
         """The map as it is now, with constraint, drift and pressure."""
         return self._source.replace(self._native.read(), self._describe())
 
-    def sample_distances(self, count: int, k: int) -> NDArray[np.float32]:
-        """Find how far the k nearest are of some photons, spread evenly over the map, where they are now.
-
-        Returns
-        -------
-        (m, k) float32
-            m, nearest first; at most `count` rows.
-        """
-        return np.asarray(self._native.sample_distances(count, k))
-
     def _describe(self) -> dict[str, Any]:
-        return _describe(self._settings, self._rows, self._scene, self.notes, self._native.off_surface)
+        told = {"settings": self.settings, "steps": self._rows, "notes": self.notes}
+        return describe_relaxation({**told, "off_surface": self._native.off_surface}, self._scene)
 
 
 def relax_photons(photons: PhotonsT, progress: ProgressLike, **settings: Unpack[AllRelaxKeywords]) -> PhotonsT:
     """Run a whole relaxation; see `PhotonMap.relax`."""
-    checked = complete_settings(photons, progress, **settings)
+    checked = check_settings("relax", settings)
     scene = _find_surface(photons, checked)
     with follow_progress(progress) as callback:
-        native, rows, notes, off_surface = _engine.relax_photons(
+        native, told = _engine.relax_photons(
             photons.device._native, photons._native, _take_native(scene), checked, callback
         )
-    _warn(notes)
-    return photons.replace(native, _describe(checked, rows, scene, notes, off_surface))
+    _warn(told["notes"])
+    return photons.replace(native, describe_relaxation(told, scene))
+
+
+def describe_relaxation(told: Mapping[str, Any], scene: Scene | None) -> dict[str, Any]:
+    """Say what a relaxation was, did and met."""
+    return {
+        "settings": dict(told["settings"]),
+        "steps": [dict(row) for row in told["steps"]],
+        "surface": "tangent planes" if scene is None else str(scene.path),
+        "notes": list(told["notes"]),
+        "off_surface": int(told["off_surface"]),
+    }
 
 
 def _find_surface(photons: DevicePhotons, settings: Mapping[str, Any]) -> Scene | None:
@@ -148,19 +147,3 @@ def _take_native(scene: Scene | None) -> _engine.Scene | None:
 def _warn(notes: Sequence[str]) -> None:
     for note in notes:
         LOG.warning(note)
-
-
-def _describe(
-    settings: Mapping[str, Any],
-    rows: Sequence[Mapping[str, Any]],
-    scene: Scene | None,
-    notes: Sequence[str],
-    off_surface: int,
-) -> dict[str, Any]:
-    return {
-        "settings": dict(settings),
-        "steps": [dict(row) for row in rows],
-        "surface": "tangent planes" if scene is None else str(scene.path),
-        "notes": list(notes),
-        "off_surface": int(off_surface),
-    }

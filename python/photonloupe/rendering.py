@@ -3,9 +3,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, Unpack
 
-from photonloupe import _engine, queries
+from numpy.typing import ArrayLike
+
+from photonloupe import _engine
 from photonloupe.camera import Camera, check_camera
 from photonloupe.device import Device, open_device
 from photonloupe.errors import ArgumentError
@@ -70,7 +73,16 @@ def render(
     native = None if photons is None else photons._native
     with follow_progress(progress) as callback:
         pixels = _engine.render_image(opened._native, scene._native, native, told, callback)
-    provenance = describe_origin(opened, scene, told)
+    return describe_image(pixels, opened, scene, photons, told)
+
+
+def describe_image(
+    pixels: ArrayLike, device: Device, scene: Scene, photons: PhotonMap | None, told: Mapping[str, Any]
+) -> Image:
+    """Say what made a picture; settings as the engine took them."""
+    native = None if photons is None else photons._native
+    k = _engine.choose_k(native) if told["k"] is None else told["k"]
+    provenance = describe_origin(device, scene, {**told, "k": k})
     if photons is not None:
         provenance["photons"] = {"stored": len(photons), "emitted": photons.emitted, "settings": photons.settings}
         if photons.relaxation:
@@ -87,5 +99,4 @@ def _check_settings(
         raise ArgumentError(f"photons must be a PhotonMap, not {photons!r}")
     if photons is None and settings["mode"] != "direct":
         raise ArgumentError(f'mode="{settings["mode"]}" needs a photon map; trace_photons makes one')
-    k = queries.find_k({} if photons is None else photons.settings, settings["k"])
-    return {**settings, "camera": check_camera(scene, camera), "k": k}
+    return {**settings, "camera": check_camera(scene, camera)}

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from photonloupe import _engine
 from photonloupe.checks import check_count, check_number
+from photonloupe.columns import PATH_NAMES
 from photonloupe.device_photons import DevicePhotons
 from photonloupe.errors import ArgumentError, FileFormatError, ScriptError
 from photonloupe.progress import ProgressLike, follow_progress
@@ -250,7 +251,8 @@ def run_script(
         "seed": list_settings("trace")["seed"].check(seed),
         **_check_limits(limits),
     }
-    photons.require_columns(compiled.columns)
+    if any(name in PATH_NAMES for name in compiled.columns):
+        photons.record_paths()
     with follow_progress(progress) as callback:
         found = compiled._native.run(photons.device._native, photons._native, settings, callback)
     made_by = {"name": compiled.name, "hash": compiled.hash, "values": found["exposed"], "seed": settings["seed"]}

@@ -174,12 +174,6 @@ def check_settings(stage: str, given: Mapping[str, Any]) -> dict[str, Any]:
     return {name: setting.check(given[name]) if name in given else setting.default for name, setting in known.items()}
 
 
-def name_emission(settings: Mapping[str, Any]) -> str | None:
-    """Return how a map's photons were emitted; None where they came from elsewhere."""
-    emission = settings.get("emission")
-    return emission if emission in list_settings("trace")["emission"].choices else None
-
-
 def add_setting_options(parser: argparse.ArgumentParser, stage: str, skip: Iterable[str] = ()) -> None:
     """Add an option for each setting of a stage; one that is not given leaves the keyword out."""
     for setting in list_settings(stage).values():

@@ -114,8 +114,8 @@ TEST_F(Memory, forgets_when_told) {
 
 TEST_F(Memory, keeps_trees_for_those_that_share_columns) {
     const auto photons = trace();
-    const std::shared_ptr<const KdTree> tree = m_bench.find_tree(*photons);
-    EXPECT_EQ(m_bench.find_tree(*share_photons(*photons)), tree);
+    const std::shared_ptr<const KdTree> tree = find_tree(get_device(), *photons);
+    EXPECT_EQ(find_tree(get_device(), *share_photons(*photons)), tree);
 }
 
 TEST(Memo, tells_keys_apart) {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "photons/nearest_query.h"
 #include "pipeline.h"
 #include "support/shared_device.h"
 
@@ -38,11 +39,11 @@ Results run_stages(gpu::Device& device) {
     Results results;
     results.positions = photons->map.position_emitter.read<std::uint32_t>(4 * photons->map.count);
     results.small_ids =
-        workbench.find_neighbors(*photons, {.places = points, .k = 10}, {}).ids.read<std::uint32_t>(10 * QUERIES);
+        find_neighbors(device, *photons, {.places = points, .k = 10}, {}).ids.read<std::uint32_t>(10 * QUERIES);
     results.large_ids =
-        workbench.find_neighbors(*photons, {.places = points, .k = 400}, {}).ids.read<std::uint32_t>(400 * QUERIES);
+        find_neighbors(device, *photons, {.places = points, .k = 400}, {}).ids.read<std::uint32_t>(400 * QUERIES);
     results.own_ids =
-        workbench.find_neighbors(*photons, {.ids = ids, .k = 10}, {}).ids.read<std::uint32_t>(10 * ids.size());
+        find_neighbors(device, *photons, {.ids = ids, .k = 10}, {}).ids.read<std::uint32_t>(10 * ids.size());
     results.irradiance =
         workbench.estimate_irradiance(*photons, points, normals, {.k = 20}, {}).read<std::uint32_t>(4 * QUERIES);
     results.image =

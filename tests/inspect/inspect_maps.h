@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "photons/map_columns.h"
+#include "photons/nearest_query.h"
 #include "pipeline.h"
 #include "scene/probe_rays.h"
 #include "shared/render.h"

@@ -29,9 +29,8 @@ Photons make_layers() {
 }
 
 std::string find_error(Photons& photons, const LoupeQuery& query) {
-    Workbench bench(get_device());
     try {
-        look_through_loupe(bench, photons, query);
+        look_through_loupe(get_device(), photons, query);
     } catch (const Error& error) {
         return error.what();
     }
@@ -39,7 +38,6 @@ std::string find_error(Photons& photons, const LoupeQuery& query) {
 }
 
 TEST(Loupe, ranges_lock_the_layer_around_a_photon_too) {
-    Workbench bench(get_device());
     Photons photons = make_layers();
     LoupeQuery query;
     query.photon = 7;
@@ -47,7 +45,7 @@ TEST(Loupe, ranges_lock_the_layer_around_a_photon_too) {
     query.space = SearchSpace::constrained;
     query.low = {-0.25f};
     query.high = {0.5f};
-    const LoupeView view = look_through_loupe(bench, photons, query);
+    const LoupeView view = look_through_loupe(get_device(), photons, query);
     const std::vector<glm::vec3> points = draw_points(COUNT, 1);
     std::vector<std::uint32_t> expected, found = view.ids;
     for (std::uint32_t id = 0; id < COUNT; ++id)
@@ -60,17 +58,16 @@ TEST(Loupe, ranges_lock_the_layer_around_a_photon_too) {
 }
 
 TEST(Loupe, keeps_parameters_in_tree_order_until_they_change) {
-    Workbench bench(get_device());
     Photons photons = make_layers();
     LoupeQuery query;
     query.space = SearchSpace::constrained;
-    look_through_loupe(bench, photons, query);
-    const std::shared_ptr<const ParameterTree> kept = bench.find_layered_tree(photons);
-    look_through_loupe(bench, photons, query);
-    EXPECT_EQ(bench.find_layered_tree(photons), kept);
+    look_through_loupe(get_device(), photons, query);
+    const std::shared_ptr<const ParameterTree> kept = find_layered_tree(get_device(), photons);
+    look_through_loupe(get_device(), photons, query);
+    EXPECT_EQ(find_layered_tree(get_device(), photons), kept);
     set_parameters(get_device(), photons, std::vector<float>(COUNT), {{"east", 0, 1, 0}});
-    look_through_loupe(bench, photons, query);
-    EXPECT_NE(bench.find_layered_tree(photons), kept);
+    look_through_loupe(get_device(), photons, query);
+    EXPECT_NE(find_layered_tree(get_device(), photons), kept);
 }
 
 TEST(Loupe, refuses_what_does_not_fit_the_map) {
@@ -93,7 +90,6 @@ TEST(Loupe, refuses_what_does_not_fit_the_map) {
 }
 
 TEST(Loupe, positions_far_out_keep_their_digits) {
-    Workbench bench(get_device());
     std::vector<glm::vec3> points = draw_points(COUNT, 3);
     for (glm::vec3& point : points)
         point = glm::vec3(1e6f, 0, 0) + glm::vec3(glm::ivec3(point * 16.0f));
@@ -101,7 +97,7 @@ TEST(Loupe, positions_far_out_keep_their_digits) {
     LoupeQuery query;
     query.point = {1e6 + 0.25, 0, 0};
     query.k = 10;
-    const LoupeView view = look_through_loupe(bench, photons, query);
+    const LoupeView view = look_through_loupe(get_device(), photons, query);
     ASSERT_EQ(view.ids.size(), 10u);
     for (std::size_t i = 0; i < view.ids.size(); ++i)
         for (int axis = 0; axis < 3; ++axis)
@@ -109,17 +105,16 @@ TEST(Loupe, positions_far_out_keep_their_digits) {
 }
 
 TEST(Columns, list_says_what_is_missing_and_finding_it_throws_the_same) {
-    Workbench bench(get_device());
     Photons photons = make_floor_photons(draw_points(10, 4));
     std::size_t missing = 0;
     for (const ColumnInfo& info : list_columns(photons)) {
         if (info.missing.empty()) {
-            EXPECT_EQ(find_column(bench, photons, info.name).values.size(), 10u) << info.name;
+            EXPECT_EQ(find_column(get_device(), photons, info.name).values.size(), 10u) << info.name;
             continue;
         }
         ++missing;
         try {
-            find_column(bench, photons, info.name);
+            find_column(get_device(), photons, info.name);
             ADD_FAILURE() << info.name << " was found";
         } catch (const Error& error) {
             EXPECT_EQ(error.what(), "column '" + info.name + "': " + info.missing);
@@ -148,11 +143,11 @@ TEST(TakeRelaxed, carries_what_was_measured) {
     const std::shared_ptr<Photons> relaxed = Workbench::take_relaxed(photons, relaxation.read());
     ASSERT_TRUE(relaxed->state);
     EXPECT_EQ(relaxed->state->basis.size(), 6 * COUNT);
-    const Column drift = find_column(bench, *relaxed, "drift");
+    const Column drift = find_column(get_device(), *relaxed, "drift");
     EXPECT_GT(drift.high, 0.0f);
     LoupeQuery query;
     query.photon = 3;
-    EXPECT_EQ(look_through_loupe(bench, *relaxed, query).ellipses.size(), 250u);
+    EXPECT_EQ(look_through_loupe(get_device(), *relaxed, query).ellipses.size(), 250u);
 }
 
 } // namespace

@@ -25,11 +25,10 @@ Photons make_layers() {
 
 TEST(KnownPhotons, answer_threads_that_ask_at_once) {
     constexpr std::uint32_t K = 20;
-    Workbench bench(get_device());
     Photons photons = make_layers(), alone = make_layers();
     const std::vector<std::uint32_t> ids{0, 7, COUNT - 1};
     const auto ask = [&](Photons& asked, SearchSpace space) {
-        return bench.find_neighbors(asked, {.space = space, .ids = ids, .k = K}, {})
+        return find_neighbors(get_device(), asked, {.space = space, .ids = ids, .k = K}, {})
             .ids.read<std::int32_t>(ids.size() * K);
     };
     const std::vector<SearchSpace> spaces{SearchSpace::constrained, SearchSpace::world, SearchSpace::parameter,
@@ -40,7 +39,7 @@ TEST(KnownPhotons, answer_threads_that_ask_at_once) {
     for (std::size_t i = 0; i < spaces.size(); ++i)
         threads.emplace_back([&, i] {
             found[i] = ask(photons, spaces[i]);
-            trees[i] = bench.find_tree(photons);
+            trees[i] = find_tree(get_device(), photons);
         });
     for (std::thread& thread : threads)
         thread.join();

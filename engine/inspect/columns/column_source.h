@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "pipeline.h"
+#include "known_photons.h"
 
 namespace photonloupe::inspect {
 

@@ -7,6 +7,7 @@
 
 #include "inspect/columns/column_source.h"
 #include "inspect/photon_colors.h"
+#include "relax/isotropy.h"
 
 namespace photonloupe::inspect {
 namespace {
@@ -78,13 +79,13 @@ std::vector<ColumnInfo> list_columns(const Photons& photons) {
     return infos;
 }
 
-std::vector<glm::vec3> find_photon_colors(Workbench& bench, Photons& photons, const std::string& color,
+std::vector<glm::vec3> find_photon_colors(gpu::Device& device, Photons& photons, const std::string& color,
                                           const Progress& progress) {
     return color == "encoding" ? list_encoded_colors(photons.map)
-                               : list_column_colors(find_column(bench, photons, color, progress));
+                               : list_column_colors(find_column(device, photons, color, progress));
 }
 
-Column find_column(Workbench& bench, Photons& photons, const std::string& name, const Progress& progress) {
+Column find_column(gpu::Device& device, Photons& photons, const std::string& name, const Progress& progress) {
     std::string names;
     for (const ColumnSource& source : list_sources(photons)) {
         names += (names.empty() ? "" : ", ") + source.name;
@@ -93,8 +94,9 @@ Column find_column(Workbench& bench, Photons& photons, const std::string& name, 
         if (const std::string missing = explain_missing(photons, source); !missing.empty())
             throw Error("column '" + name + "': " + missing);
         Column column{name, source.label, {}, source.low, source.high, source.period, source.is_discrete};
-        column.values =
-            source.compute ? source.compute(photons) : bench.measure_isotropy(photons, ISOTROPY_NEIGHBORS, progress);
+        column.values = source.compute ? source.compute(photons)
+                                       : measure_isotropy(device, *find_parameter_tree(device, photons, progress),
+                                                          ISOTROPY_NEIGHBORS, progress);
         if (!(source.high > source.low))
             fill_range(column);
         if (source.needs == Needs::parameters && source.compute && source.period == 0)

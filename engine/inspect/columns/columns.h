@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "inspect/column.h"
-#include "pipeline.h"
+#include "known_photons.h"
 
 namespace photonloupe::inspect {
 
@@ -27,10 +27,10 @@ std::vector<ColumnInfo> list_columns(const Photons& photons);
 std::vector<std::string> list_parameter_columns(const Photons& photons);
 
 // One of them, computed now. Throws Error naming the columns there are, or saying what the map lacks for it.
-Column find_column(Workbench& bench, Photons& photons, const std::string& name, const Progress& progress = {});
+Column find_column(gpu::Device& device, Photons& photons, const std::string& name, const Progress& progress = {});
 
 // Linear colors by photon: "encoding" (a script's, else one of its own each), or those of a column by its name.
-std::vector<glm::vec3> find_photon_colors(Workbench& bench, Photons& photons, const std::string& color,
+std::vector<glm::vec3> find_photon_colors(gpu::Device& device, Photons& photons, const std::string& color,
                                           const Progress& progress = {});
 
 // Photons an isotropy is measured of ([SJL15] section 5.2).

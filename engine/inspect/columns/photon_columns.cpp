@@ -8,6 +8,7 @@
 
 #include "inspect/columns/column_source.h"
 #include "inspect/luminance.h"
+#include "script/interpret/script_columns.h"
 #include "shared/trace.h"
 
 namespace photonloupe::inspect {

@@ -16,6 +16,34 @@
 namespace photonloupe::script {
 namespace {
 
+constexpr std::pair<std::uint32_t, const char*> COLUMN_NAMES[] = {
+    {COLUMN_POSITION, "positions"},
+    {COLUMN_NORMAL, "normals"},
+    {COLUMN_POWER, "power"},
+    {COLUMN_EMITTER, "emitter"},
+    {COLUMN_PARAMETERS, "parameters"},
+    {COLUMN_PATH_STARTS, "path_offsets"},
+    {COLUMN_PATH_VERTICES, "path_vertices"},
+    {COLUMN_PATH_NORMALS, "path_normals"},
+    {COLUMN_PATH_INTERACTIONS, "path_interactions"},
+    {COLUMN_PATH_OBJECTS, "path_objects"},
+    {COLUMN_PATH_SCATTER, "path_scatter"},
+};
+
+// The columns of paths that a map has.
+std::uint32_t find_path_columns(const PhotonMap& photons) {
+    if (!photons.paths)
+        return 0;
+    const PathColumns& paths = *photons.paths;
+    std::uint32_t columns = COLUMN_PATH_STARTS | COLUMN_PATH_VERTICES;
+    for (const auto& [has, column] : {std::pair(paths.has_normals, COLUMN_PATH_NORMALS),
+                                      {paths.has_interactions, COLUMN_PATH_INTERACTIONS},
+                                      {paths.has_objects, COLUMN_PATH_OBJECTS},
+                                      {paths.has_scatter, COLUMN_PATH_SCATTER}})
+        columns |= has ? column : 0u;
+    return columns;
+}
+
 // Rows of neighbours the interpreter asks for at once.
 constexpr std::uint32_t ROWS_AT_ONCE = 1024;
 
@@ -243,6 +271,22 @@ ScriptRun Run::collect() {
 }
 
 } // namespace
+
+std::vector<std::string> list_columns(const Program& program) {
+    std::vector<std::string> names;
+    for (const auto& [bit, name] : COLUMN_NAMES)
+        if (program.columns & bit)
+            names.emplace_back(name);
+    return names;
+}
+
+void require_columns(const Program& program, const PhotonMap& photons) {
+    const std::uint32_t there = find_path_columns(photons);
+    for (const auto& [bit, name] : COLUMN_NAMES)
+        if (bit >= COLUMN_PATH_STARTS && program.columns & bit & ~there)
+            throw ArgumentError("the script reads " + std::string(name) +
+                                ", which this map does not have; give it to from_arrays");
+}
 
 std::vector<DeclaredParameter> list_declared(const ScriptRun& run) {
     std::vector<DeclaredParameter> declared;

@@ -37,6 +37,12 @@ struct ScriptRun {
 
 std::vector<DeclaredParameter> list_declared(const ScriptRun& run);
 
+// The map's columns that a script reads, as users name them.
+std::vector<std::string> list_columns(const Program& program);
+
+// Throws ArgumentError naming a column of paths that the script reads and the map does not have.
+void require_columns(const Program& program, const PhotonMap& photons);
+
 // What neighbour queries need of the photons while a script changes their parameters.
 struct ScriptQueries {
     FindRows find_rows;

@@ -13,10 +13,10 @@ from numpy.typing import ArrayLike, NDArray
 from photonloupe import _engine
 from photonloupe.checks import check_count, check_vectors
 from photonloupe.errors import ArgumentError
+from photonloupe.isotropy import check_beta
 from photonloupe.nearest import check_look, read_ranges
 from photonloupe.photons import PhotonMap
 from photonloupe.progress import ProgressLike, follow_progress
-from photonloupe.relax_settings import check_beta
 from photonloupe.settings import list_settings, takes_settings
 
 Floats = NDArray[np.float32]

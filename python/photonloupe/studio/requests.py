@@ -7,7 +7,7 @@ import json
 import os
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from photonloupe import _engine
 from photonloupe.errors import ArgumentError, PhotonLoupeError
@@ -15,10 +15,7 @@ from photonloupe.inspect.parallel_axes import Axis
 from photonloupe.inspect.parallel_coordinates import parallel_coordinates
 from photonloupe.scene import Scene, load_scene
 from photonloupe.scripting import Script, compile_script
-from photonloupe.studio.stages import Stages, describe_error
-
-if TYPE_CHECKING:
-    from photonloupe.studio.worker import Worker
+from photonloupe.studio.results import Results
 
 SCENES = (".gltf", ".glb")
 SCRIPT = ".photon"
@@ -35,28 +32,28 @@ class Requests:
     """Serves what the interface asks for beside its work, and notices files that changed."""
 
     def __init__(
-        self, native: _engine.Studio, stages: Stages, export: Callable[[], Callable[..., None] | None]
+        self, native: _engine.Studio, results: Results, export: Callable[[], Callable[..., None] | None]
     ) -> None:
         self._native = native
         self._export = export
-        self._stages = stages
+        self._results = results
         self._session = ""
         self._stamps: dict[str, tuple[int, int]] = {}
 
-    def serve(self, worker: Worker) -> bool:
+    def serve(self) -> bool:
         """Serve all that waits; True: something was."""
         waiting = self._native.take_requests()
         for request in waiting:
             verb, _, argument = request.partition(" ")
             try:
-                self._serve(verb, argument.strip(), worker)
+                self._serve(verb, argument.strip())
             except (PhotonLoupeError, OSError, ValueError) as error:
                 self._native.say(describe_error(error), True)
         return bool(waiting)
 
-    def _serve(self, verb: str, argument: str, worker: Worker) -> None:
+    def _serve(self, verb: str, argument: str) -> None:
         if verb == "cancel":
-            worker.stop()
+            self._native.stop_job()
         elif verb == "open":
             self.open_file(argument)
         elif verb == "save_script":
@@ -104,7 +101,7 @@ class Requests:
         """Open a scene and trace it."""
         path = str(Path(scene.path if isinstance(scene, Scene) else scene).absolute())
         # What is wrong with it is said before the old one goes.
-        self._stages.open_scene(scene if isinstance(scene, Scene) else load_scene(path))
+        self._native.open_scene((scene if isinstance(scene, Scene) else load_scene(path))._native)
         self._native.forget_work("trace")  # the file may have changed
         trace: dict[str, Any] = {"scene": path, "map": ""}
         if photons is not None:
@@ -145,7 +142,7 @@ class Requests:
         whole = json.loads(self._native.complete_state())
         state = whole["parallel"]
         shows_relaxed = whole["view"]["shows_relaxed"] and self._native.has_relaxed()
-        photons = self._stages.relaxed if shows_relaxed else self._stages.photons
+        photons = self._results.relaxed if shows_relaxed else self._results.photons
         if photons is None or not state["axes"]:
             raise ArgumentError("there is nothing to plot yet; open a scene and draw a frame")
         axes = [
@@ -212,11 +209,19 @@ class Requests:
         self._native.say(f"saved {path}", False)
 
     def _store_reference(self) -> None:
-        if self._stages.image is None:
+        image = self._results.image
+        if image is None:
             raise ArgumentError("there is no picture to store yet; it is being rendered")
         path = Path(_find_free_name("reference.exr")).absolute()
-        self._stages.image.save(path)
+        image.save(path)
         self._change("store reference", {"image": {"reference": str(path)}})
+
+
+def describe_error(error: BaseException) -> str:
+    """Say in one line what went wrong."""
+    if isinstance(error, OSError):
+        return f"{error.filename or 'a file'}: {error.strerror or os.strerror(error.errno or 0)}"
+    return " ".join(str(error).split()) or type(error).__name__
 
 
 def _find_free_name(name: str) -> str:

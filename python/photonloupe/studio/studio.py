@@ -22,10 +22,10 @@ from photonloupe.scene import Scene
 from photonloupe.scripting import Script
 from photonloupe.studio.autosave import Autosave
 from photonloupe.studio.examples import find_examples
+from photonloupe.studio.hosting import MapLoader, compare_with_file
 from photonloupe.studio.pictures import encode_pixels, write_pixels
 from photonloupe.studio.requests import Requests
-from photonloupe.studio.stages import Stages
-from photonloupe.studio.worker import Worker
+from photonloupe.studio.results import Results
 
 SMALLEST_SIDE, LARGEST_SIDE = 64, 8192
 # Of one frame() without a window: each may ask for the next.
@@ -91,11 +91,19 @@ class Studio:
         width, height = _check_size(size)
         scale = check_number("scale", scale, 0.5, 4.0)
         self._device = open_device(device)
-        self._native = _engine.open_studio(self._device._native, (width, height), scale, offscreen)
+        loader = MapLoader(self._device)
+        self._native = _engine.open_studio(
+            self._device._native,
+            (width, height),
+            scale,
+            offscreen,
+            background or not offscreen,
+            loader,
+            compare_with_file,
+        )
         self._is_open = True
-        self._stages = Stages(self._device, self._native)
-        self._worker = Worker(self._native, self._stages, is_threaded=background or not offscreen)
-        self._requests = Requests(self._native, self._stages, weakref.WeakMethod(self.export_panel))
+        self._results = Results(self._native, self._device, loader)
+        self._requests = Requests(self._native, self._results, weakref.WeakMethod(self.export_panel))
         self._watchers: list[SelectionWatcher] = []
         self._seen_version = self._native.version()
         self._told_selection: NDArray[np.uint32] | None = None
@@ -124,9 +132,8 @@ class Studio:
 
     def _take_turn(self) -> bool:
         """Serve requests and the next job; True: another frame should follow."""
-        served = self._requests.serve(self._worker)
-        worked = self._worker.take_turn()
-        return served or worked
+        served = self._requests.serve()
+        return self._native.take_turn() or served
 
     def open(self, path: str | os.PathLike[str]) -> None:
         """Open a scene, photon map, script, session or reference image, by its suffix; its work follows with frames.
@@ -157,7 +164,7 @@ class Studio:
             self.watch_files()
             if self._autosave is not None:
                 self._autosave.save_when_due()
-            changed = self._native.wait(0.05 if self._worker.is_busy else 0.5)
+            changed = self._native.wait(0.05 if self.is_busy else 0.5)
 
     @property
     def should_close(self) -> bool:
@@ -167,7 +174,7 @@ class Studio:
     @property
     def is_busy(self) -> bool:
         """Whether work is running in the background."""
-        return self._worker.is_busy
+        return bool(self._native.is_busy)
 
     def close(self, *, keeps_autosave: bool = False) -> None:
         """Stop the work and free the window; closing twice is fine.
@@ -179,7 +186,7 @@ class Studio:
         """
         if self._is_open:
             self._is_open = False
-            self._worker.close()
+            self._native.close()
             self._native.hide()
             if self._autosave is not None and not keeps_autosave:
                 self._autosave.clear()
@@ -380,24 +387,25 @@ class Studio:
         ArgumentError
             If there are none yet.
         """
-        if self._stages.photons is None:
+        photons = self._results.photons
+        if photons is None:
             raise ArgumentError("the studio has no photons yet; open a scene and draw a frame")
-        return self._stages.photons
+        return photons
 
     @property
     def relaxed(self) -> PhotonMap | None:
         """The relaxed photons, if any."""
-        return self._stages.relaxed if self._native.has_relaxed() else None
+        return self._results.relaxed if self._native.has_relaxed() else None
 
     @property
     def scene(self) -> Scene | None:
         """The scene the photons lie in."""
-        return self._stages.scene
+        return self._results.scene
 
     @property
     def rendered(self) -> Image | None:
         """The last rendered view, linear."""
-        return self._stages.image
+        return self._results.image
 
     @property
     def loupe_ids(self) -> NDArray[np.uint32]:
@@ -440,7 +448,8 @@ class Studio:
             raise ArgumentError("this studio was closed; open another")
 
     def __repr__(self) -> str:
-        count = 0 if self._stages.photons is None else len(self._stages.photons)
+        photons = self._results.photons
+        count = 0 if photons is None else len(photons)
         return f"<Studio {self._native.size[0]} × {self._native.size[1]}, {count:,} photons>"
 
 
