@@ -20,7 +20,7 @@ std::unique_ptr<CompiledScript> compile_script(const Source& source) {
                 diagnostics.add(reason.code, reason.span, reason.message, reason.note);
             if (!loop.is_parallel || diagnostics.has_errors())
                 continue;
-            pass = emit_pass(compiled->program, compiled->plan, loop);
+            pass = emit_pass(compiled->program, loop);
             if (pass.too_long)
                 diagnostics.add(pass.too_long->code, pass.too_long->span, pass.too_long->message, pass.too_long->note);
         }

@@ -33,11 +33,7 @@ std::vector<std::filesystem::path> list_scripts() {
 
 void expect_compiles(const EmittedPass& pass) {
     const gpu::ExpandedSource expanded = gpu::expand_source({"script", 64, {}, {}, pass.glsl});
-    std::vector<std::string> names;
-    for (const gpu::BindingDeclaration& binding : expanded.bindings)
-        names.push_back(binding.name);
-    EXPECT_EQ(names, pass.bindings);
-    for (const std::uint64_t by_address : {std::uint64_t{0}, (std::uint64_t{1} << names.size()) - 1})
+    for (const std::uint64_t by_address : {std::uint64_t{0}, (std::uint64_t{1} << expanded.bindings.size()) - 1})
         EXPECT_NO_THROW(gpu::compile_glsl(gpu::declare_bindings(expanded, {}, by_address), "script"));
 }
 

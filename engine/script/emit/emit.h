@@ -42,8 +42,7 @@ struct PassHistogram {
 };
 
 struct EmittedPass {
-    std::string glsl;                  // begins with its includes; bindings as pragmas
-    std::vector<std::string> bindings; // all names, in order
+    std::string glsl; // begins with its includes; bindings as pragmas
 
     std::vector<UniformSlot> uniforms;
     std::optional<std::uint32_t> moments_2d_word, moments_3d_word, decomposition_word; // from before the loop
@@ -62,7 +61,7 @@ struct EmittedPass {
 
 constexpr std::size_t MAX_GLSL_BYTES = 128 * 1024;
 
-// `loop` is parallel and of `plan`; all must outlive the result.
-EmittedPass emit_pass(const Program& program, const Plan& plan, const PhotonLoop& loop);
+// `loop` is parallel; both must outlive the result.
+EmittedPass emit_pass(const Program& program, const PhotonLoop& loop);
 
 } // namespace photonloupe::script

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Puts a pass together: includes, declarations, the loop's body, what surrounds it.
 #include "script/emit/emitter.h"
-#include "script/emit/pass_libraries.h"
 #include "script/read/diagnostic_codes.h"
 
 namespace photonloupe::script {
 namespace {
+
+// The files of shaders/script/ that passes include where they need them, in order.
+constexpr std::string_view LIBRARIES[] = {
+    "positions", "normals", "powers", "axes", "paths", "path_vertices", "path_normals", "parameters",
+    "colors", "lanes", "pca", "pca_words", "pca_lanes", "neighbors", "histograms", "prints"};
 
 std::string indent(std::uint32_t depth) {
     return std::string(4 * depth, ' ');
@@ -40,25 +44,14 @@ std::string Emitter::compose_head() {
     std::string text = "// The loop over photons of " + name + ", line " + std::to_string(line) + ".\n" +
                        "#include \"shared/prelude.glsl\"\n#include \"shared/math.glsl\"\n" + "#define FAULT_WORDS " +
                        std::to_string(count_fault_words()) + "\n";
-    const auto bind = [&](const std::string& name) { m_pass.bindings.push_back(name); };
-    if (m_pass.uniform_word_count > 0) {
+    if (m_pass.uniform_word_count > 0)
         text += "#pragma binding readonly uint uniform_words\n";
-        bind("uniform_words");
-    }
-    if (m_has_loops) {
+    if (m_has_loops)
         text += "#pragma binding uint late_bits\n";
-        bind("late_bits");
-    }
-    bind("status_words");
-    bind("fault_words");
     text += "#include \"script/pass.glsl\"\n#include \"script/numbers.glsl\"\n#include \"script/functions.glsl\"\n";
-    for (const PassLibrary& library : list_pass_libraries()) {
-        if (!m_libraries.contains(std::string(library.name)))
-            continue;
-        text += "#include \"script/" + std::string(library.name) + ".glsl\"\n";
-        if (!library.binding.empty())
-            bind(std::string(library.binding));
-    }
+    for (const std::string_view library : LIBRARIES)
+        if (m_libraries.contains(std::string(library)))
+            text += "#include \"script/" + std::string(library) + ".glsl\"\n";
     return text + "\n";
 }
 
@@ -242,7 +235,7 @@ std::string Emitter::compose_main() const {
     return text + "    report_turns();\n}\n";
 }
 
-EmittedPass emit_pass(const Program& program, const Plan&, const PhotonLoop& loop) {
+EmittedPass emit_pass(const Program& program, const PhotonLoop& loop) {
     return Emitter(program, loop).emit();
 }
 
