@@ -69,7 +69,7 @@ std::unique_ptr<OpenFigure> make(OpenDevice& open, const nb::list& axes, const I
     const FigureSettings asked = read_settings(settings);
     const Selection focused{focus.data(), focus.data() + focus.size()};
     nb::gil_scoped_release release;
-    made->figure = make_parallel_figure(open.device, made->columns, std::move(read), {}, focused, chosen, asked);
+    made->figure = make_parallel_figure(open.device, made->columns, std::move(read), focused, chosen, asked);
     return made;
 }
 

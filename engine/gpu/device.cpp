@@ -249,7 +249,6 @@ void read_limits(Device::Impl& impl) {
         impl.limits.max_texel_count = std::min(impl.limits.max_texel_count, range / TEXEL_BYTES);
     }
     impl.limits.max_allocation_bytes = maintenance.maxMemoryAllocationSize;
-    impl.limits.shared_memory_bytes = limits.maxComputeSharedMemorySize;
     impl.limits.max_group_count = limits.maxComputeWorkGroupCount[0];
     impl.timestamp_nanoseconds = limits.timestampComputeAndGraphics ? limits.timestampPeriod : 0.0;
 }

@@ -31,7 +31,6 @@ struct DeviceLimits {
     std::uint64_t max_storage_range = 0;    // bytes one descriptor may cover; larger buffers go by address
     std::uint64_t max_allocation_bytes = 0; // of one buffer
     std::uint64_t max_texel_count = 0;      // of one texel buffer
-    std::uint64_t shared_memory_bytes = 0;  // of one workgroup
     std::uint32_t max_group_count = 0;      // workgroups in x
     bool host_visible = false;              // buffers are read and written in place, without staging
     bool can_draw = false;                  // the interface

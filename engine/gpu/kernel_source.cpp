@@ -104,19 +104,8 @@ std::string declare_large(const BindingDeclaration& binding, std::size_t block, 
                                               : pointer;
 }
 
-} // namespace
-
-std::string make_key(const KernelSource& source) {
-    std::string key = source.path + '|' + std::to_string(source.workgroup_size);
-    for (const std::string& define : source.defines)
-        key += '|' + define;
-    for (std::uint32_t constant : source.constants)
-        key += '#' + std::to_string(constant);
-    if (!source.text.empty())
-        key += '@' + hash_bytes(source.text);
-    return key;
-}
-
+// Where kernels are looked for, in this order: the folders of PHOTONLOUPE_SHADER_DIR (separated by ':'), else
+// `shaders` beside the program.
 std::vector<std::string> find_shader_folders() {
     if (const char* value = std::getenv("PHOTONLOUPE_SHADER_DIR"); value && *value) {
         std::vector<std::string> folders;
@@ -129,6 +118,19 @@ std::vector<std::string> find_shader_folders() {
     if (dladdr(reinterpret_cast<void*>(&find_shader_folders), &info) && info.dli_fname)
         return {(std::filesystem::absolute(info.dli_fname).parent_path() / "shaders").string()};
     return {"shaders"};
+}
+
+} // namespace
+
+std::string make_key(const KernelSource& source) {
+    std::string key = source.path + '|' + std::to_string(source.workgroup_size);
+    for (const std::string& define : source.defines)
+        key += '|' + define;
+    for (std::uint32_t constant : source.constants)
+        key += '#' + std::to_string(constant);
+    if (!source.text.empty())
+        key += '@' + hash_bytes(source.text);
+    return key;
 }
 
 ExpandedSource expand_source(const KernelSource& source) {

@@ -36,10 +36,6 @@ struct ExpandedSource {
 // Tells sources apart, whatever their files hold.
 std::string make_key(const KernelSource& source);
 
-// Where kernels are looked for, in this order: the folders of PHOTONLOUPE_SHADER_DIR (separated by ':'), else
-// `shaders` beside the program.
-std::vector<std::string> find_shader_folders();
-
 // Reads a kernel, or takes its text, with the files it includes. Throws Error naming the file and line.
 ExpandedSource expand_source(const KernelSource& source);
 

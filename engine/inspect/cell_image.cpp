@@ -2,8 +2,6 @@
 // Borders and colors of cells, on the host.
 #include "inspect/cell_image.h"
 
-#include "image/png.h"
-
 namespace photonloupe::inspect {
 
 void find_borders(CellImage& image) {
@@ -29,30 +27,18 @@ std::vector<std::uint32_t> count_pixels(const CellImage& image, std::size_t cell
 
 } // namespace
 
-Image paint_cells(const CellImage& image, std::span<const glm::vec3> colors, const CellPaint& paint) {
+Image paint_cells(const CellImage& image, std::span<const glm::vec3> colors) {
     Image painted{image.width, image.height, {}, {}};
     painted.rgb.reserve(3 * image.ids.size());
     const std::vector<std::uint32_t> sizes = count_pixels(image, colors.size());
     for (std::size_t at = 0; at < image.ids.size(); ++at) {
         const std::int32_t id = image.ids[at];
         const bool has_cell = id >= 0 && static_cast<std::size_t>(id) < colors.size();
-        const bool is_large = has_cell && sizes[id] >= paint.least_bordered;
-        const bool is_border = paint.draws_borders && is_large && image.is_border[at] != 0;
-        const glm::vec3 color = is_border ? paint.border : has_cell ? colors[id] : paint.background;
+        const bool is_border = has_cell && sizes[id] >= LEAST_BORDERED && image.is_border[at] != 0;
+        const glm::vec3 color = has_cell && !is_border ? colors[id] : glm::vec3(0);
         painted.rgb.insert(painted.rgb.end(), {color.r, color.g, color.b});
     }
     return painted;
-}
-
-std::vector<std::uint8_t> encode_rgba8(const Image& image) {
-    std::vector<std::uint8_t> bytes;
-    bytes.reserve(image.rgb.size() / 3 * 4);
-    for (std::size_t at = 0; at < image.rgb.size(); at += 3) {
-        for (std::size_t channel = 0; channel < 3; ++channel)
-            bytes.push_back(encode_srgb(image.rgb[at + channel], 0.0));
-        bytes.push_back(255);
-    }
-    return bytes;
 }
 
 } // namespace photonloupe::inspect

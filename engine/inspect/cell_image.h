@@ -21,17 +21,10 @@ struct CellImage {
 // Fills is_border from ids.
 void find_borders(CellImage& image);
 
-struct CellPaint {
-    bool draws_borders = true;
-    std::uint32_t least_bordered = 16; // pixels of a cell; the borders of smaller ones would hide it
-    glm::vec3 border{0.0f};            // linear
-    glm::vec3 background{0.0f};        // linear, where there is no cell
-};
+// Pixels of a cell; the borders of smaller ones would hide it.
+constexpr std::uint32_t LEAST_BORDERED = 16;
 
-// Linear colors by cell id; ids beyond them are background.
-Image paint_cells(const CellImage& image, std::span<const glm::vec3> colors, const CellPaint& paint = {});
-
-// 8-bit sRGB and alpha 255, as screens show it.
-std::vector<std::uint8_t> encode_rgba8(const Image& image);
+// Linear colors by cell id; borders, and ids beyond the colors, are black.
+Image paint_cells(const CellImage& image, std::span<const glm::vec3> colors);
 
 } // namespace photonloupe::inspect

@@ -197,7 +197,7 @@ std::vector<PathLine> read_path_lines(const Photons& photons, std::span<const st
     const HostPaths paths = read_paths_of(photons.map, ids);
     std::vector<PathLine> lines;
     for (std::size_t i = 0; i < ids.size(); ++i) {
-        PathLine line{ids[i], {}, {}};
+        PathLine line;
         for (const glm::vec4& vertex : paths.view(i).vertices) {
             line.points.emplace_back(vertex);
             line.interactions.push_back(static_cast<std::uint8_t>(read_interaction(vertex)));

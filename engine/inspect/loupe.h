@@ -72,7 +72,6 @@ LoupeView look_through_loupe(gpu::Device& device, Photons& photons, const LoupeQ
 
 // A photon's path as a polyline, relative to the map's origin; interactions as in the map's path columns.
 struct PathLine {
-    std::uint32_t photon = 0;
     std::vector<glm::vec3> points;
     std::vector<std::uint8_t> interactions;
 };

@@ -55,8 +55,7 @@ double compute_power(const glm::vec4& sum, std::uint64_t point_count) {
     return (real * real + imaginary * imaginary) / static_cast<double>(point_count);
 }
 
-} // namespace
-
+// The frequencies of the half plane within an ellipse of these half-axes, cycles over each side.
 std::vector<glm::ivec2> list_half_plane(glm::dvec2 radius) {
     if (!(radius.x >= 0.0 && radius.y >= 0.0 && std::max(radius.x, radius.y) <= MAX_SPECTRUM_RADIUS))
         throw Error("the largest frequency is " + std::to_string(radius.x) + ", " + std::to_string(radius.y) +
@@ -71,6 +70,8 @@ std::vector<glm::ivec2> list_half_plane(glm::dvec2 radius) {
     }
     return frequencies;
 }
+
+} // namespace
 
 Spectrum measure_spectrum(gpu::Device& device, std::span<const glm::dvec2> points, glm::dvec2 radius,
                           const Progress& progress) {

@@ -21,9 +21,6 @@ struct Spectrum {
 // At larger frequencies the rounding of coordinates, 2^-30 of a side, would show in the fourth digit.
 inline constexpr double MAX_SPECTRUM_RADIUS = 4096.0;
 
-// The frequencies of the half plane within an ellipse of these half-axes, cycles over each side.
-std::vector<glm::ivec2> list_half_plane(glm::dvec2 radius);
-
 // Points are given in sides of the rectangle, [0, 1]², and repeat beyond it. Sums keep a fixed order.
 Spectrum measure_spectrum(gpu::Device& device, std::span<const glm::dvec2> points, glm::dvec2 radius,
                           const Progress& progress = {});

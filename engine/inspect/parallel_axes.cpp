@@ -34,10 +34,12 @@ double wrap(double share) {
 } // namespace
 
 Axis make_axis(std::span<const Column> columns, std::size_t column) {
-    Axis axis{.column = column};
-    reset_axis(axis, columns);
-    axis.is_closed = columns[column].period > 0;
-    return axis;
+    const Column& shown = columns[column];
+    const bool is_closed = shown.period > 0;
+    return {.column = column,
+            .low = shown.low,
+            .high = is_closed ? shown.low + shown.period : shown.high,
+            .is_closed = is_closed};
 }
 
 void check_axes(std::span<const Column> columns, std::span<const Axis> axes) {
@@ -138,30 +140,6 @@ std::optional<std::size_t> find_axis(const AxisLayout& layout, glm::vec2 pixel, 
         }
     }
     return nearest;
-}
-
-void move_axis(std::vector<Axis>& axes, std::size_t from, std::size_t to) {
-    const auto begin = axes.begin();
-    const auto at = [&](std::size_t i) { return begin + static_cast<std::ptrdiff_t>(i); };
-    if (from < to)
-        std::rotate(at(from), at(from + 1), at(to + 1));
-    else
-        std::rotate(at(to), at(from), at(from + 1));
-}
-
-void zoom_axis(Axis& axis, float first, float second) {
-    axis.low = std::min(first, second);
-    axis.high = std::max(first, second);
-}
-
-void reset_axis(Axis& axis, std::span<const Column> columns) {
-    const Column& column = columns[axis.column];
-    axis.low = column.low;
-    axis.high = column.period > 0 ? column.low + column.period : column.high;
-}
-
-bool has_brushes(std::span<const Axis> axes) {
-    return std::any_of(axes.begin(), axes.end(), [](const Axis& axis) { return !axis.brushes.empty(); });
 }
 
 } // namespace photonloupe::inspect

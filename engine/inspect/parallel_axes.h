@@ -77,20 +77,12 @@ float find_distance(const AxisPlace& place, glm::vec2 pixel);
 // The nearest axis within `reach` pixels.
 std::optional<std::size_t> find_axis(const AxisLayout& layout, glm::vec2 pixel, float reach);
 
-// Takes the axis at `from` out and puts it in at `to`.
-void move_axis(std::vector<Axis>& axes, std::size_t from, std::size_t to);
-// Shows the values between two, in either order.
-void zoom_axis(Axis& axis, float first, float second);
-// The column's whole range again.
-void reset_axis(Axis& axis, std::span<const Column> columns);
-
 // The area `width` pixels to either side of the axis from the interval's low end to its high one; empty where the
 // interval lies beyond the ends of an open axis.
 std::vector<glm::vec2> outline_brush(const Axis& axis, const AxisPlace& place, const Interval& brush, float width);
 // The direction away from the axis: right of a line, along the normal of an ellipse.
 glm::vec2 find_outward(const AxisPlace& place, glm::vec2 point);
 
-bool has_brushes(std::span<const Axis> axes);
 // Photons that every brushed axis selects, of `within` (empty: of all). No value: never. On an ellipse that the range
 // winds round several times an interval selects every value whose point lies in it.
 Selection select_brushed(std::span<const Axis> axes, std::span<const Column> columns, const Selection& within);

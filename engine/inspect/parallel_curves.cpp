@@ -107,10 +107,4 @@ std::array<glm::vec2, 4> find_bezier(const Curves& curves, std::size_t curve, st
     return {from, from + third * glm::vec2(1, tangents.x), to - third * glm::vec2(1, tangents.y), to};
 }
 
-float find_height(const Curves& curves, std::size_t curve, std::size_t gap, float x) {
-    const auto [from, from_handle, to_handle, to] = find_bezier(curves, curve, gap);
-    const float t = (x - from.x) / (to.x - from.x), s = 1 - t;
-    return s * s * (s * from.y + 3 * t * from_handle.y) + t * t * (3 * s * to_handle.y + t * to.y);
-}
-
 } // namespace photonloupe::inspect

@@ -29,7 +29,4 @@ Curves build_curves(std::span<const Column> columns, std::span<const Axis> axes,
 // Control points of one curve's cubic in a gap; NaN where it has none.
 std::array<glm::vec2, 4> find_bezier(const Curves& curves, std::size_t curve, std::size_t gap);
 
-// Height of a curve above x, which lies in the gap.
-float find_height(const Curves& curves, std::size_t curve, std::size_t gap, float x);
-
 } // namespace photonloupe::inspect

@@ -20,23 +20,10 @@ Selection list_all(std::span<const Column> columns) {
     return all;
 }
 
-Selection intersect(const Selection& first, const Selection& second) {
-    Selection both;
-    std::set_intersection(first.begin(), first.end(), second.begin(), second.end(), std::back_inserter(both));
-    return both;
-}
-
 Selection subtract(const Selection& first, const Selection& second) {
     Selection rest;
     std::set_difference(first.begin(), first.end(), second.begin(), second.end(), std::back_inserter(rest));
     return rest;
-}
-
-// An empty selection would mean all photons to `select_brushed`.
-Selection find_focus(std::span<const Axis> axes, std::span<const Column> columns, const Selection& shown,
-                     const Selection& focus) {
-    const Selection within = focus.empty() ? shown : intersect(shown, focus);
-    return within.empty() ? within : select_brushed(axes, columns, within);
 }
 
 std::vector<AxisDensity> estimate_densities(std::span<const Column> columns, std::span<const Axis> axes,
@@ -48,6 +35,19 @@ std::vector<AxisDensity> estimate_densities(std::span<const Column> columns, std
                        densities[i] = estimate_density(columns[axes[i].column], axes[i], photons);
                });
     return densities;
+}
+
+// A column from its low to its high through Viridis, through Twilight where it repeats.
+std::vector<glm::vec3> color_by_column(const Column& column, const Selection& photons) {
+    const Colormap map = column.period > 0 ? Colormap::twilight : Colormap::viridis;
+    const double extent = column.period > 0 ? column.period : double(column.high) - column.low;
+    std::vector<glm::vec3> colors;
+    colors.reserve(photons.size());
+    for (std::uint32_t photon : photons) {
+        const double share = (double(column.values[photon]) - column.low) / extent;
+        colors.push_back(map_color(map, extent > 0 ? static_cast<float>(share) : 0.5f));
+    }
+    return colors;
 }
 
 // The colors that the figure's curves have: given by photon, or those of a column.
@@ -64,15 +64,15 @@ std::vector<glm::vec3> choose_colors(const CurveColors& colors, const Selection&
 } // namespace
 
 ParallelFigure make_parallel_figure(gpu::Device& device, std::span<const Column> columns, std::vector<Axis> axes,
-                                    const Selection& shown, const Selection& focus, const CurveColors& colors,
+                                    const Selection& focus, const CurveColors& colors,
                                     const FigureSettings& settings) {
     check_axes(columns, axes);
     ParallelFigure figure;
     figure.axes = std::move(axes);
     figure.style = settings.style;
     figure.layout = place_axes(figure.axes, settings.width, settings.height, settings.margins);
-    const Selection all = shown.empty() ? list_all(columns) : shown;
-    Selection selected = find_focus(figure.axes, columns, all, focus);
+    const Selection all = list_all(columns);
+    Selection selected = select_brushed(figure.axes, columns, focus);
     figure.context = build_curves(columns, figure.axes, figure.layout, subtract(all, selected), settings.tension);
     figure.selected = build_curves(columns, figure.axes, figure.layout, std::move(selected), settings.tension);
     if (figure.context.count() + figure.selected.count() <= settings.style.most_curves)
@@ -81,18 +81,6 @@ ParallelFigure make_parallel_figure(gpu::Device& device, std::span<const Column>
         figure.densities = estimate_densities(columns, figure.axes, figure.selected.photons);
     figure.image = draw_curves(device, figure.layout, figure.context, figure.selected, figure.colors, settings.style);
     return figure;
-}
-
-std::vector<glm::vec3> color_by_column(const Column& column, const Selection& photons) {
-    const Colormap map = column.period > 0 ? Colormap::twilight : Colormap::viridis;
-    const double extent = column.period > 0 ? column.period : double(column.high) - column.low;
-    std::vector<glm::vec3> colors;
-    colors.reserve(photons.size());
-    for (std::uint32_t photon : photons) {
-        const double share = (double(column.values[photon]) - column.low) / extent;
-        colors.push_back(map_color(map, extent > 0 ? static_cast<float>(share) : 0.5f));
-    }
-    return colors;
 }
 
 } // namespace photonloupe::inspect

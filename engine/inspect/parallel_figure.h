@@ -34,14 +34,11 @@ struct CurveColors {
     std::span<const glm::vec3> by_photon;
 };
 
-// Shows `shown` (empty: all photons). In focus are those of `focus` (empty: all that are shown) that the brushes
-// select. Throws Error where axes make no sense or have no room.
+// In focus are the photons of `focus` (empty: all) that the brushes select. Throws Error where axes make no sense or
+// have no room.
 ParallelFigure make_parallel_figure(gpu::Device& device, std::span<const Column> columns, std::vector<Axis> axes,
-                                    const Selection& shown, const Selection& focus, const CurveColors& colors,
+                                    const Selection& focus, const CurveColors& colors,
                                     const FigureSettings& settings = {});
-
-// Colors of photons: a column from its low to its high through Viridis, through Twilight where it repeats.
-std::vector<glm::vec3> color_by_column(const Column& column, const Selection& photons);
 
 // How axes are drawn, sRGB in hexadecimal and pixels; the same in SVG and PNG.
 struct FigureStyle {
@@ -66,7 +63,6 @@ LimitLabels find_limit_labels(const Axis& axis);
 std::vector<std::array<glm::vec2, 2>> list_ticks(const Axis& axis, const AxisPlace& place);
 
 // A file that stands alone: curves as paths, or the image of their density, with axes, limits, densities and brushes.
-std::string format_parallel_svg(const ParallelFigure& figure, std::span<const Column> columns);
 // Throws Error with the path and the system's reason; the old file stays then.
 void write_parallel_svg(const std::filesystem::path& path, const ParallelFigure& figure,
                         std::span<const Column> columns);

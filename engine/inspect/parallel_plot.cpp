@@ -142,12 +142,9 @@ void color_coverage(gpu::Device& device, const AxisLayout& layout, const Coverag
 }
 
 void draw_density(gpu::Device& device, const AxisLayout& layout, const Curves& context, const Curves& selected,
-                  const CurveStyle& style, CurveImage& image) {
+                  const CurveStyle& style, const gpu::Buffer& pixels) {
     const Coverage coverage = count_coverage(device, layout, context, selected);
-    color_coverage(device, layout, coverage, style, image.pixels);
-    const std::vector<std::uint32_t> largest = coverage.largest.read<std::uint32_t>(2);
-    image.largest_context = largest[0];
-    image.largest_selected = largest[1];
+    color_coverage(device, layout, coverage, style, pixels);
 }
 
 // The context's curves, all alike, then the selected ones, each in its color.
@@ -261,10 +258,10 @@ Coverage count_coverage(gpu::Device& device, const AxisLayout& layout, const Cur
 CurveImage draw_curves(gpu::Device& device, const AxisLayout& layout, const Curves& context, const Curves& selected,
                        std::span<const glm::vec3> colors, const CurveStyle& style) {
     const std::uint64_t pixel_count = std::uint64_t{layout.width} * layout.height;
-    CurveImage image{layout.width, layout.height, gpu::Buffer(device, pixel_count * 4, "curve image"), false, 0, 0};
+    CurveImage image{layout.width, layout.height, gpu::Buffer(device, pixel_count * 4, "curve image"), false};
     image.is_density = context.count() + selected.count() > style.most_curves;
     if (image.is_density)
-        draw_density(device, layout, context, selected, style, image);
+        draw_density(device, layout, context, selected, style, image.pixels);
     else
         draw_each(device, layout, join(context, selected),
                   list_colors(context.count(), selected.count(), colors, style), style, image.pixels);

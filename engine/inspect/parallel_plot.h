@@ -49,7 +49,6 @@ struct CurveImage {
     std::uint32_t width = 0, height = 0;
     gpu::Buffer pixels;
     bool is_density = false;
-    std::uint32_t largest_context = 0, largest_selected = 0; // density: most curves in a pixel
 };
 
 // `colors` by curve of `selected`, or empty. The context lies beneath.

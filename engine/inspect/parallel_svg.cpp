@@ -151,25 +151,6 @@ void add_areas(std::string& svg, const ParallelFigure& figure) {
                         STYLE.brush_color, STYLE.brush_opacity);
 }
 
-} // namespace
-
-LimitLabels find_limit_labels(const Axis& axis) {
-    const std::string low = format("%.4g", axis.low), high = format("%.4g", axis.high);
-    if (!axis.is_closed)
-        return axis.is_flipped ? LimitLabels{low, high} : LimitLabels{high, low};
-    const std::string turns = axis.periods > 1 ? format("%u turns", axis.periods) : std::string();
-    return {turns, low + " = " + high};
-}
-
-std::vector<std::array<glm::vec2, 2>> list_ticks(const Axis& axis, const AxisPlace& place) {
-    std::vector<std::array<glm::vec2, 2>> ticks;
-    for (int i = 0; i < TICK_COUNT; ++i) {
-        const glm::vec2 point = find_point(axis, place, double(i) / (TICK_COUNT - 1));
-        ticks.push_back({point, point - TICK_LENGTH * find_outward(place, point)});
-    }
-    return ticks;
-}
-
 std::string format_parallel_svg(const ParallelFigure& figure, std::span<const Column> columns) {
     const auto [width, height] = std::pair(figure.layout.width, figure.layout.height);
     std::string svg =
@@ -187,6 +168,25 @@ std::string format_parallel_svg(const ParallelFigure& figure, std::span<const Co
     for (std::size_t i = 0; i < figure.axes.size(); ++i)
         add_labels(svg, figure.axes[i], figure.layout.places[i], columns[figure.axes[i].column]);
     return svg + "</g>\n</svg>\n";
+}
+
+} // namespace
+
+LimitLabels find_limit_labels(const Axis& axis) {
+    const std::string low = format("%.4g", axis.low), high = format("%.4g", axis.high);
+    if (!axis.is_closed)
+        return axis.is_flipped ? LimitLabels{low, high} : LimitLabels{high, low};
+    const std::string turns = axis.periods > 1 ? format("%u turns", axis.periods) : std::string();
+    return {turns, low + " = " + high};
+}
+
+std::vector<std::array<glm::vec2, 2>> list_ticks(const Axis& axis, const AxisPlace& place) {
+    std::vector<std::array<glm::vec2, 2>> ticks;
+    for (int i = 0; i < TICK_COUNT; ++i) {
+        const glm::vec2 point = find_point(axis, place, double(i) / (TICK_COUNT - 1));
+        ticks.push_back({point, point - TICK_LENGTH * find_outward(place, point)});
+    }
+    return ticks;
 }
 
 void write_parallel_svg(const std::filesystem::path& path, const ParallelFigure& figure,

@@ -61,10 +61,7 @@ float find_color_share(const Column& column, float value) {
 }
 
 std::vector<glm::vec3> list_column_colors(const Column& column) {
-    return list_column_colors(column, choose_colormap(column));
-}
-
-std::vector<glm::vec3> list_column_colors(const Column& column, Colormap map) {
+    const Colormap map = choose_colormap(column);
     std::vector<glm::vec3> colors;
     colors.reserve(column.values.size());
     for (const float value : column.values)

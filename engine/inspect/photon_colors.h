@@ -27,6 +27,5 @@ Colormap choose_colormap(const Column& column);
 // Place of a value in a color map: periodic columns over their period, others over low … high. NaN for NaN.
 float find_color_share(const Column& column, float value);
 std::vector<glm::vec3> list_column_colors(const Column& column);
-std::vector<glm::vec3> list_column_colors(const Column& column, Colormap map);
 
 } // namespace photonloupe::inspect

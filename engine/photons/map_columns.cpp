@@ -136,10 +136,6 @@ PathColumns share_paths(const PathColumns& paths) {
             paths.has_normals,  paths.has_interactions, paths.has_objects,      paths.has_scatter};
 }
 
-ParameterColumns share_parameters(const ParameterColumns& parameters) {
-    return {parameters.count, parameters.values.share(), parameters.given, parameters.periods, parameters.axes};
-}
-
 PhotonMap share_map(const PhotonMap& map) {
     PhotonMap shared;
     shared.count = map.count;
@@ -150,8 +146,9 @@ PhotonMap share_map(const PhotonMap& map) {
     shared.long_indices = map.long_indices;
     if (map.paths)
         shared.paths = share_paths(*map.paths);
-    if (map.parameters)
-        shared.parameters = share_parameters(*map.parameters);
+    if (const auto& parameters = map.parameters)
+        shared.parameters = {parameters->count, parameters->values.share(), parameters->given, parameters->periods,
+                             parameters->axes};
     if (map.colors)
         shared.colors = map.colors->share();
     shared.given_colors = map.given_colors;

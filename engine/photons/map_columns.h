@@ -45,7 +45,6 @@ void set_colors(gpu::Device& device, PhotonMap& map, std::vector<float> values);
 // A map of the same columns in the same memory.
 PhotonMap share_map(const PhotonMap& map);
 PathColumns share_paths(const PathColumns& paths);
-ParameterColumns share_parameters(const ParameterColumns& parameters);
 
 // World positions: 3 floats a photon.
 std::vector<float> read_positions(const PhotonMap& photons);

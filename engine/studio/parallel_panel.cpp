@@ -116,17 +116,13 @@ void ParallelPanel::draw_curves(Workspace& workspace, const inspect::Selection& 
     style.background = {0.085f, 0.09f, 0.095f, 1};
     style.selected_color = {0.55f, 0.75f, 0.95f};
     inspect::CurveImage image = inspect::draw_curves(workspace.device, m_plot.layout, below, above, colors, style);
-    m_plot.is_density = image.is_density;
     m_plot.curve_count = photons.size();
     m_plot.selected_count = selected.size();
     m_plot.broken_count = below.broken_count + above.broken_count;
     m_pixels = std::move(image.pixels);
     workspace.pixels.set("parallel", image.width, image.height, m_pixels);
-    for (std::size_t i = 0; i < m_plot.axes.size(); ++i) {
+    for (std::size_t i = 0; i < m_plot.axes.size(); ++i)
         m_plot.densities.push_back(inspect::estimate_density(m_plot.columns[i], m_plot.axes[i], photons));
-        if (chosen && !selected.empty())
-            m_plot.selected_densities.push_back(inspect::estimate_density(m_plot.columns[i], m_plot.axes[i], selected));
-    }
 }
 
 void ParallelPanel::update(Workspace& workspace, std::uint32_t width, std::uint32_t height) {

@@ -24,9 +24,8 @@ private:
         std::vector<inspect::Column> columns;
         std::vector<inspect::Axis> axes;
         inspect::AxisLayout layout;
-        std::vector<inspect::AxisDensity> densities, selected_densities;
+        std::vector<inspect::AxisDensity> densities;
         std::size_t curve_count = 0, selected_count = 0, broken_count = 0;
-        bool is_density = false;
         std::string missing;
     };
     enum class Grip { none, brush, move, zoom };

@@ -106,7 +106,7 @@ Studio::~Studio() {
 }
 
 void Studio::open_window(const StudioOptions& options) {
-    m_window = studio::open_window(options.width, options.height, options.title, *this);
+    m_window = studio::open_window(options.width, options.height, *this);
     m_workspace.scale = options.scale * find_monitor_scale(*m_window);
     m_surface = open_surface(m_workspace.device, *m_window);
 }

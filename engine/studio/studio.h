@@ -24,7 +24,6 @@ struct StudioOptions {
     std::uint32_t height = 900;
     float scale = 1.0f;       // of fonts and widgets
     bool is_offscreen = true; // no window; else a GLFW window
-    std::string title = "Photon Loupe";
 };
 
 // How long frames took, milliseconds; the latest ones.

@@ -26,7 +26,7 @@ void drop_files(GLFWwindow* window, int count, const char** paths) {
 
 } // namespace
 
-GLFWwindow* open_window(std::uint32_t width, std::uint32_t height, const std::string& title, Studio& studio) {
+GLFWwindow* open_window(std::uint32_t width, std::uint32_t height, Studio& studio) {
     const char* reason = nullptr;
     if (!glfwInit() || !glfwVulkanSupported()) {
         glfwGetError(&reason);

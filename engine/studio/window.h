@@ -12,7 +12,7 @@ namespace photonloupe::studio {
 class Studio;
 
 // Throws DeviceError where there is no screen. `studio` gets the files that are dropped on it.
-GLFWwindow* open_window(std::uint32_t width, std::uint32_t height, const std::string& title, Studio& studio);
+GLFWwindow* open_window(std::uint32_t width, std::uint32_t height, Studio& studio);
 void close_window(GLFWwindow* window);
 void hide_window(GLFWwindow& window);
 void begin_window_frame();

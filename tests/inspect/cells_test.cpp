@@ -233,14 +233,15 @@ TEST(KdCells, boxes_are_those_of_the_tree) {
 }
 
 TEST(PaintedCells, have_their_colors_and_large_ones_borders) {
-    CellImage image{4, 1, {0, 0, 1, -1}, {}, {}};
+    CellImage image{LEAST_BORDERED + 2, 1, std::vector<std::int32_t>(LEAST_BORDERED, 0), {}, {}};
+    image.ids.insert(image.ids.end(), {1, -1});
     find_borders(image);
-    const std::vector<glm::vec3> colors{{1, 0, 0}, {0, 1, 0}};
-    const Image painted = paint_cells(image, colors, {true, 2, glm::vec3(0.5f), glm::vec3(0.25f)});
-    EXPECT_EQ(painted.rgb, (std::vector<float>{1, 0, 0, 0.5f, 0.5f, 0.5f, 0, 1, 0, 0.25f, 0.25f, 0.25f}));
-    const std::vector<std::uint8_t> bytes = encode_rgba8(painted);
-    EXPECT_EQ((std::vector(bytes.begin(), bytes.begin() + 8)),
-              (std::vector<std::uint8_t>{255, 0, 0, 255, 188, 188, 188, 255}));
+    const Image painted = paint_cells(image, std::vector<glm::vec3>{{1, 0, 0}, {0, 1, 0}});
+    const auto pixel = [&](std::size_t at) { return std::vector(&painted.rgb[3 * at], &painted.rgb[3 * at] + 3); };
+    EXPECT_EQ(pixel(LEAST_BORDERED - 2), (std::vector<float>{1, 0, 0}));
+    EXPECT_EQ(pixel(LEAST_BORDERED - 1), (std::vector<float>{0, 0, 0})) << "its border";
+    EXPECT_EQ(pixel(LEAST_BORDERED), (std::vector<float>{0, 1, 0})) << "too small for a border";
+    EXPECT_EQ(pixel(LEAST_BORDERED + 1), (std::vector<float>{0, 0, 0})) << "no cell";
 }
 
 } // namespace

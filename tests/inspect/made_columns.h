@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "inspect/parallel_axes.h"
+#include "inspect/parallel_curves.h"
 
 namespace photonloupe::test {
 
@@ -39,6 +39,13 @@ inline inspect::Selection list_ids(std::size_t count) {
     for (std::size_t i = 0; i < count; ++i)
         ids[i] = static_cast<std::uint32_t>(i);
     return ids;
+}
+
+// Height of a curve above x, which lies in the gap.
+inline float find_height(const inspect::Curves& curves, std::size_t curve, std::size_t gap, float x) {
+    const auto [from, from_handle, to_handle, to] = find_bezier(curves, curve, gap);
+    const float t = (x - from.x) / (to.x - from.x), s = 1 - t;
+    return s * s * (s * from.y + 3 * t * from_handle.y) + t * t * (3 * s * to_handle.y + t * to.y);
 }
 
 } // namespace photonloupe::test

@@ -142,33 +142,6 @@ TEST(ParallelAxes, nearest_axis_within_reach_is_found) {
     EXPECT_NEAR(find_distance(layout.places[1], {250 + rx + 3, 150}), 3, 0.3);
 }
 
-TEST(ParallelAxes, moving_an_axis_keeps_the_others_in_order) {
-    const auto order = [](std::size_t from, std::size_t to) {
-        std::vector<Axis> axes(5);
-        for (std::size_t i = 0; i < 5; ++i)
-            axes[i].column = i;
-        move_axis(axes, from, to);
-        std::vector<std::size_t> columns;
-        for (const Axis& axis : axes)
-            columns.push_back(axis.column);
-        return columns;
-    };
-    EXPECT_EQ(order(1, 3), (std::vector<std::size_t>{0, 2, 3, 1, 4}));
-    EXPECT_EQ(order(4, 0), (std::vector<std::size_t>{4, 0, 1, 2, 3}));
-    EXPECT_EQ(order(2, 2), (std::vector<std::size_t>{0, 1, 2, 3, 4}));
-}
-
-TEST(ParallelAxes, zoom_takes_its_limits_in_either_order_and_reset_undoes_it) {
-    std::vector<Column> columns{make_column({1, 2}, 1, 2)};
-    Axis axis = make_axis(columns, 0);
-    zoom_axis(axis, 1.75f, 1.25f);
-    EXPECT_EQ(axis.low, 1.25f);
-    EXPECT_EQ(axis.high, 1.75f);
-    reset_axis(axis, columns);
-    EXPECT_EQ(axis.low, 1);
-    EXPECT_EQ(axis.high, 2);
-}
-
 TEST(ParallelAxes, column_that_repeats_makes_a_closed_axis_over_one_period) {
     Column angle = make_column({0.5f}, 0.5f, 0.5f);
     angle.period = 6;

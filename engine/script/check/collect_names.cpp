@@ -10,6 +10,13 @@
 namespace photonloupe::script {
 namespace {
 
+// getKNN(…) and its like.
+bool is_list_call(const SyntaxExpression& expression) {
+    const Builtin* const builtin =
+        expression.kind == SyntaxExpression::Kind::call ? find_builtin(expression.name) : nullptr;
+    return builtin && builtin->result == Result::list;
+}
+
 class NameCollector {
 public:
     explicit NameCollector(const std::set<std::string>& declared) : m_scopes{declared} {}
@@ -78,12 +85,6 @@ private:
 };
 
 } // namespace
-
-bool is_list_call(const SyntaxExpression& expression) {
-    const Builtin* const builtin =
-        expression.kind == SyntaxExpression::Kind::call ? find_builtin(expression.name) : nullptr;
-    return builtin && builtin->result == Result::list;
-}
 
 std::vector<AssignedName> collect_assigned_names(const std::vector<SyntaxStatement>& statements,
                                                  const std::set<std::string>& declared) {

@@ -24,7 +24,4 @@ std::vector<AssignedName> collect_assigned_names(const std::vector<SyntaxStateme
 // What `float x;` and the like declare in the outermost block, with the place.
 std::vector<AssignedName> collect_declared_names(const std::vector<SyntaxStatement>& statements);
 
-// getKNN(…) and its like.
-bool is_list_call(const SyntaxExpression& expression);
-
 } // namespace photonloupe::script

@@ -42,7 +42,6 @@ private:
     std::uint32_t add_variable(const std::string& name, Span span, WrittenType type);
     std::uint32_t declare(const Declarator& declarator);
     std::optional<std::uint32_t> find_variable(const std::string& name) const;
-    bool is_script_scope() const { return m_scopes.size() == 1; }
     std::optional<std::uint32_t> resolve(const SyntaxExpression& name);
     std::optional<std::uint32_t> resolve_target(const SyntaxExpression& target);
     void refuse_unknown_variable(const SyntaxExpression& name);

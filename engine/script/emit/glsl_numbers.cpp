@@ -8,6 +8,7 @@
 #include <limits>
 
 namespace photonloupe::script {
+namespace {
 
 std::string write_real(float value) {
     if (!std::isfinite(value) || (value != 0 && std::abs(value) < std::numeric_limits<float>::min())) {
@@ -24,10 +25,10 @@ std::string write_real(float value) {
 }
 
 std::string write_integer(std::int32_t value) {
-    if (value == std::numeric_limits<std::int32_t>::min())
-        return "int(0x80000000u)";
-    return std::to_string(value);
+    return value == std::numeric_limits<std::int32_t>::min() ? "int(0x80000000u)" : std::to_string(value);
 }
+
+} // namespace
 
 std::string write_number(Type type, double value) {
     return type == Type::integer ? write_integer(std::int32_t(value)) : write_real(float(value));

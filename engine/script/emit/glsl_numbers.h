@@ -2,15 +2,12 @@
 // Numbers as GLSL literals that glslang reads back bit by bit.
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "script/program.h"
 
 namespace photonloupe::script {
 
-std::string write_real(float value);
-std::string write_integer(std::int32_t value);
 std::string write_number(Type type, double value);
 // What an operation without a value gives: NaN, or 0.
 std::string write_nothing(Type type);

@@ -50,7 +50,6 @@ public:
     std::uint64_t version() const { return m_version; }
     bool is_on_host() const { return m_is_on_host; } // arrays were made
     bool host_is_newer() const { return m_host_is_newer; }
-    bool device_is_newer() const { return m_device_is_newer; }
     void note_device_wrote() {
         m_device_is_newer = true;
         ++m_version;
