@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,6 +16,24 @@ from photonloupe.errors import PhotonLoupeError
 from photonloupe.parameters import Parameter, check_parameters, list_axes
 
 Float3 = NDArray[np.float32]
+T = TypeVar("T")
+_STATE_MAKER = "constrain() or relax()"
+
+
+class _Column(property, Generic[T]):
+    """A read-only column, by the name it is assigned to; `maker` makes one that is missing."""
+
+    def __init__(self, doc: str, maker: str = "") -> None:
+        super().__init__()
+        self.__doc__ = doc
+        self._maker = maker
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+    def __get__(self, instance: Any, owner: type | None = None) -> T:  # pyright: ignore[reportIncompatibleMethodOverride]
+        found: Any = self if instance is None else instance._read(self._name, self._maker)
+        return found
 
 
 class PhotonColumns:
@@ -31,65 +49,22 @@ class PhotonColumns:
     def __len__(self) -> int:
         return int(self._native.count)
 
-    @property
-    def positions(self) -> Float3:
-        """Where the photons are stored, (n, 3), m."""
-        return self._read("positions")
-
-    @property
-    def normals(self) -> Float3:
-        """Unit normal of the surface, on the side the light came from, (n, 3)."""
-        return self._read("normals")
-
-    @property
-    def power(self) -> Float3:
-        """Flux carried, (n, 3), W per channel."""
-        return self._read("power")
-
-    @property
-    def emitter(self) -> NDArray[np.int32]:
-        """Index of the light, (n,)."""
-        return self._read("emitter")
-
-    @property
-    def emitted_index(self) -> NDArray[np.uint64]:
-        """Which emitted photon it is, (n,): with the seed it determines the whole path."""
-        return self._read("emitted_index")
-
-    @property
-    def object(self) -> NDArray[np.int32]:
-        """Object it lies on, (n,); -1 where there is none."""
-        return self._read("object")
-
-    @property
-    def path_offsets(self) -> NDArray[np.int64]:
-        """First vertex of each path in the flat path columns, (n + 1,)."""
-        return self._read("path_offsets")
-
-    @property
-    def path_vertices(self) -> Float3:
-        """Vertices of all paths, emitter and storage point included, (v, 3), m."""
-        return self._read("path_vertices")
-
-    @property
-    def path_normals(self) -> Float3:
-        """Unit normals at the vertices, (v, 3)."""
-        return self._read("path_normals")
-
-    @property
-    def path_interactions(self) -> NDArray[np.uint8]:
-        """What happened at the vertices, (v,): 1 reflected, 2 transmitted, 0 at the ends."""
-        return self._read("path_interactions")
-
-    @property
-    def path_objects(self) -> NDArray[np.int32]:
-        """Objects the vertices lie on, (v,); -1 at a light."""
-        return self._read("path_objects")
-
-    @property
-    def path_scatter(self) -> NDArray[np.float32]:
-        """How diffuse each interaction was, (v,): 0 mirror-like to 1 diffuse."""
-        return self._read("path_scatter")
+    positions = _Column[Float3]("Where the photons are stored, (n, 3), m.")
+    normals = _Column[Float3]("Unit normal of the surface, on the side the light came from, (n, 3).")
+    power = _Column[Float3]("Flux carried, (n, 3), W per channel.")
+    emitter = _Column[NDArray[np.int32]]("Index of the light, (n,).")
+    emitted_index = _Column[NDArray[np.uint64]](
+        "Which emitted photon it is, (n,): with the seed it determines the whole path."
+    )
+    object = _Column[NDArray[np.int32]]("Object it lies on, (n,); -1 where there is none.")
+    path_offsets = _Column[NDArray[np.int64]]("First vertex of each path in the flat path columns, (n + 1,).")
+    path_vertices = _Column[Float3]("Vertices of all paths, emitter and storage point included, (v, 3), m.")
+    path_normals = _Column[Float3]("Unit normals at the vertices, (v, 3).")
+    path_interactions = _Column[NDArray[np.uint8]](
+        "What happened at the vertices, (v,): 1 reflected, 2 transmitted, 0 at the ends."
+    )
+    path_objects = _Column[NDArray[np.int32]]("Objects the vertices lie on, (v,); -1 at a light.")
+    path_scatter = _Column[NDArray[np.float32]]("How diffuse each interaction was, (v,): 0 mirror-like to 1 diffuse.")
 
     def set_parameters(
         self,
@@ -146,60 +121,42 @@ class PhotonColumns:
         rows = [(parameter.low, parameter.high) for parameter in self.parameter_list]
         return np.array(rows, dtype=np.float32).reshape(-1, 2)
 
-    @property
-    def parameter_periodic(self) -> NDArray[np.bool_]:
-        """Whether each parameter wraps, (m,)."""
-        return np.array([parameter.periodic for parameter in self.parameter_list], dtype=bool)
-
-    @property
-    def parameters(self) -> NDArray[np.float32]:
-        """Parameters set by a script or by `set_parameters`, (n, m); NaN where a photon has none."""
-        return self._read("parameters", "set_parameters() or a script")
+    parameters = _Column[NDArray[np.float32]](
+        "Parameters set by a script or by `set_parameters`, (n, m); NaN where a photon has none.",
+        "set_parameters() or a script",
+    )
 
     @property
     def parameters_set(self) -> NDArray[np.bool_]:
         """Whether a photon has all its parameters, (n,); one without takes no part in parameter space."""
         return np.all(~np.isnan(self.parameters), axis=1)
 
-    @property
-    def colors(self) -> Float3:
-        """False colors that a script encoded, (n, 3), linear; NaN where it gave none (shown in grey)."""
-        return self._read("colors", "run_script() with setPhotonColourEncoding")
-
-    @property
-    def constraint_basis(self) -> NDArray[np.float32]:
-        """Unit tangent vectors along and across the structure, u_b and v_b, (n, 2, 3)."""
-        return self._read("constraint_basis", "constrain() or relax()")
-
-    @property
-    def constraint_weights(self) -> NDArray[np.float32]:
-        """Share of movement forbidden along u_b and v_b, w_u and w_v, (n, 2): 0 free to 1 fixed."""
-        return self._read("constraint_weights", "constrain() or relax()")
-
-    @property
-    def gradient(self) -> Float3:
-        """Relative gradient of the photon density, ∇f/f, (n, 3), 1/m (METHODS section 5.1)."""
-        return self._read("gradient", "constrain() or relax()")
-
-    @property
-    def one_sidedness(self) -> NDArray[np.float32]:
-        """How far a photon's neighbors lie on one side, c_m, (n,): 0 evenly around, 1 on a hard edge."""
-        return self._read("one_sidedness", "constrain() or relax()")
+    colors = _Column[Float3](
+        "False colors that a script encoded, (n, 3), linear; NaN where it gave none (shown in grey).",
+        "run_script() with setPhotonColourEncoding",
+    )
+    constraint_basis = _Column[NDArray[np.float32]](
+        "Unit tangent vectors along and across the structure, u_b and v_b, (n, 2, 3).", _STATE_MAKER
+    )
+    constraint_weights = _Column[NDArray[np.float32]](
+        "Share of movement forbidden along u_b and v_b, w_u and w_v, (n, 2): 0 free to 1 fixed.", _STATE_MAKER
+    )
+    gradient = _Column[Float3](
+        "Relative gradient of the photon density, ∇f/f, (n, 3), 1/m (METHODS section 5.1).", _STATE_MAKER
+    )
+    one_sidedness = _Column[NDArray[np.float32]](
+        "How far a photon's neighbors lie on one side, c_m, (n,): 0 evenly around, 1 on a hard edge.", _STATE_MAKER
+    )
 
     @property
     def traced_positions(self) -> Float3:
         """Where the photons were before any relaxation, (n, 3), m; paths end there."""
         return self._read("traced_positions") if "traced_positions" in self.recorded else self.positions
 
-    @property
-    def drift(self) -> Float3:
-        """Displacement since the constraint was measured, (n, 3), m."""
-        return self._read("drift", "relax()")
-
-    @property
-    def pressure(self) -> NDArray[np.float32]:
-        """Force of the last step before constraint and limiter over the radius, |f'|/r, (n,)."""
-        return self._read("pressure", "relax()")
+    drift = _Column[Float3]("Displacement since the constraint was measured, (n, 3), m.", "relax()")
+    pressure = _Column[NDArray[np.float32]](
+        "Force of the last step before constraint and limiter over the radius, |f'|/r, (n,).", "relax()"
+    )
 
     @property
     def recorded(self) -> tuple[str, ...]:

@@ -104,12 +104,12 @@ def test_bounds_where_no_photon_is_set_are_zero(photons: pl.PhotonMap) -> None:
 
 def test_periodic_flags_come_back(photons: pl.PhotonMap) -> None:
     set_all(photons)
-    assert photons.parameter_periodic.tolist() == list(PERIODIC)
+    assert [parameter.periodic for parameter in photons.parameter_list] == list(PERIODIC)
 
 
 def test_nothing_is_periodic_unless_said(photons: pl.PhotonMap) -> None:
     photons.set_parameters(make_values(2))
-    assert photons.parameter_periodic.tolist() == [False, False]
+    assert [parameter.periodic for parameter in photons.parameter_list] == [False, False]
 
 
 def test_distance_wraps_in_a_periodic_dimension(photons: pl.PhotonMap) -> None:
