@@ -85,6 +85,10 @@ class Stopwatch:
         finally:
             self.seconds[step] = self.seconds.get(step, 0.0) + time.perf_counter() - start
 
+    def format(self) -> str:
+        """Name the steps with their seconds."""
+        return ", ".join(f"{step} {seconds:.2f}" for step, seconds in self.seconds.items())
+
 
 def format_table(rows: Sequence[Sequence[str]]) -> list[str]:
     """Line up columns of text; the first row is the heading."""

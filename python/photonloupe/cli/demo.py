@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import time
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,6 @@ import photonloupe as pl
 from photonloupe.cli.common import (
     EXIT_OK,
     QUALITIES,
-    Stopwatch,
     add_device_option,
     choose_progress,
     format_table,
@@ -109,9 +109,9 @@ class _Demo:
         self.progress = choose_progress()
         self.made: list[dict[str, Any]] = []
 
-    def note(self, path: Path, what: str, watch: Stopwatch) -> None:
-        """Add a file to the list."""
-        self.made.append({"file": str(path), "what": what, "seconds": sum(watch.seconds.values())})
+    def note(self, path: Path, what: str, start: float) -> None:
+        """Add a file, made since `start`, to the list."""
+        self.made.append({"file": str(path), "what": what, "seconds": time.perf_counter() - start})
 
     def trace(self, count: int, emission: str) -> pl.PhotonMap:
         """Trace a map."""
@@ -137,19 +137,17 @@ class _Demo:
 
 def _show_ring(demo: _Demo) -> None:
     """Trace, save, and render the ring."""
-    watch = Stopwatch()
-    with watch.measure("all"):
-        photons = demo.trace(_PHOTONS, "sobol")
-        photons.save(demo.folder / "ring.zarr")
+    start = time.perf_counter()
+    photons = demo.trace(_PHOTONS, "sobol")
+    photons.save(demo.folder / "ring.zarr")
     demo.note(
-        demo.folder / "ring.zarr", f"photon map: {len(photons):,} of {photons.emitted:,} emitted, Sobol emission", watch
+        demo.folder / "ring.zarr", f"photon map: {len(photons):,} of {photons.emitted:,} emitted, Sobol emission", start
     )
     for mode, camera, exposure in _PICTURES:
-        watch = Stopwatch()
-        with watch.measure("all"):
-            image = demo.render(photons, camera=camera, mode=mode, samples=_SAMPLES)
-            path = demo.save(image, f"{mode}_{camera}", exposure)
-        demo.note(path, f"{mode}, camera {camera}, {image.width} × {image.height}; beside it the EXR", watch)
+        start = time.perf_counter()
+        image = demo.render(photons, camera=camera, mode=mode, samples=_SAMPLES)
+        path = demo.save(image, f"{mode}_{camera}", exposure)
+        demo.note(path, f"{mode}, camera {camera}, {image.width} × {image.height}; beside it the EXR", start)
 
 
 def _show_scripts(demo: _Demo) -> None:
@@ -157,18 +155,16 @@ def _show_scripts(demo: _Demo) -> None:
     photons = demo.trace(_PHOTONS, "sobol")
     sheet: dict[str, pl.Image] = {}
     for name, values in _SHOWN_SCRIPTS:
-        watch = Stopwatch()
-        with watch.measure("all"):
-            demo.run_script(photons, name, values)
-            image = demo.render(photons, camera="top", mode="false-color", samples=_COMPARED_SAMPLES)
-            path = demo.save(image, f"script_{name}", _FALSE_COLOR_EXPOSURE)
+        start = time.perf_counter()
+        demo.run_script(photons, name, values)
+        image = demo.render(photons, camera="top", mode="false-color", samples=_COMPARED_SAMPLES)
+        path = demo.save(image, f"script_{name}", _FALSE_COLOR_EXPOSURE)
         sheet[f"{name}: {', '.join(photons.parameter_names)}"] = image
-        demo.note(path, f"false color of {name}.photon, camera top; beside it the EXR", watch)
+        demo.note(path, f"false color of {name}.photon, camera top; beside it the EXR", start)
     path = demo.folder / "scripts.png"
-    watch = Stopwatch()
-    with watch.measure("all"):
-        build_contact_sheet(sheet, columns=len(sheet), exposure=_FALSE_COLOR_EXPOSURE).save(path)
-    demo.note(path, "the scripts side by side: where sheets of light cross, colors tell them apart", watch)
+    start = time.perf_counter()
+    build_contact_sheet(sheet, columns=len(sheet), exposure=_FALSE_COLOR_EXPOSURE).save(path)
+    demo.note(path, "the scripts side by side: where sheets of light cross, colors tell them apart", start)
 
 
 def _compare_relaxations(demo: _Demo) -> None:
@@ -177,46 +173,41 @@ def _compare_relaxations(demo: _Demo) -> None:
     demo.run_script(photons, _LAYERS, {})
     sheet: dict[str, pl.Image] = {}
     for way in _WAYS:
-        watch = Stopwatch()
-        with watch.measure("all"):
-            moved = photons if way.settings is None else photons.relax(**way.settings, progress=demo.progress)
-            image = demo.render(moved, camera="close", mode="caustic", samples=_COMPARED_SAMPLES, k=_COMPARED_K)
-            top, bottom = (round(share * image.height) for share in _BAND)
-            image = pl.Image(np.asarray(image)[top : max(bottom, top + 1)], provenance=image.provenance)
-            path = demo.save(image, f"relax_{way.name}", _COMPARED_EXPOSURE)
+        start = time.perf_counter()
+        moved = photons if way.settings is None else photons.relax(**way.settings, progress=demo.progress)
+        image = demo.render(moved, camera="close", mode="caustic", samples=_COMPARED_SAMPLES, k=_COMPARED_K)
+        top, bottom = (round(share * image.height) for share in _BAND)
+        image = pl.Image(np.asarray(image)[top : max(bottom, top + 1)], provenance=image.provenance)
+        path = demo.save(image, f"relax_{way.name}", _COMPARED_EXPOSURE)
         sheet[way.label] = image
-        demo.note(path, f"caustic, camera close, {_describe(way, moved)}; beside it the EXR", watch)
-    watch = Stopwatch()
-    with watch.measure("all"):
-        path = demo.folder / "relax.png"
-        build_contact_sheet(sheet, columns=_COLUMNS, exposure=_COMPARED_EXPOSURE).save(path)
+        demo.note(path, f"caustic, camera close, {_describe(way, moved)}; beside it the EXR", start)
+    start = time.perf_counter()
+    path = demo.folder / "relax.png"
+    build_contact_sheet(sheet, columns=_COLUMNS, exposure=_COMPARED_EXPOSURE).save(path)
     what = (
         f"the four side by side: {len(photons):,} photons, {_COMPARED_EMISSION} emission; the last keeps the inner band"
     )
-    demo.note(path, what, watch)
+    demo.note(path, what, start)
 
 
 def _show_studio(demo: _Demo) -> None:
     """Look at the crossing in the studio: three sheets of light that the primal trajectory tells apart."""
-    watch = Stopwatch()
+    start = time.perf_counter()
     path = demo.folder / "studio.png"
-    with (
-        watch.measure("all"),
-        pl.Studio(
-            scene=demo.scene,
-            offscreen=True,
-            photons=_COMPARED_PHOTONS,
-            script=demo.scripts / f"{_LAYERS}.photon",
-            device=demo.device,
-        ) as studio,
-    ):
+    with pl.Studio(
+        scene=demo.scene,
+        offscreen=True,
+        photons=_COMPARED_PHOTONS,
+        script=demo.scripts / f"{_LAYERS}.photon",
+        device=demo.device,
+    ) as studio:
         studio.frame()
         studio.command("view.straight")
         studio.command("view.colored_points")
         studio.look_at(_CROSSING)
         studio.command("relax.run")
         studio.save_image(path)
-    demo.note(path, f"the studio, relaxed photons in the colors of {_LAYERS}, the loupe at the crossing", watch)
+    demo.note(path, f"the studio, relaxed photons in the colors of {_LAYERS}, the loupe at the crossing", start)
 
 
 def _describe(way: _Way, photons: pl.PhotonMap) -> str:

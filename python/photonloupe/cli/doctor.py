@@ -64,18 +64,10 @@ def _format(findings: dict[str, Any]) -> list[str]:
         rows = [["", "index", "device", "type", "driver", "Vulkan", "MiB", "usable"]]
         chosen = findings["chosen"] or {}
         for entry in findings["devices"]:
-            rows.append(
-                [
-                    "*" if entry.get("index") == chosen.get("index") else "",
-                    str(entry.get("index")),
-                    str(entry.get("name")),
-                    str(entry.get("type")),
-                    str(entry.get("driver")),
-                    str(entry.get("api_version")),
-                    f"{int(entry.get('memory', 0)) // _MEBIBYTE:,}",
-                    "yes" if entry.get("usable") else f"no: {entry.get('reason')}",
-                ]
-            )
+            mark = "*" if entry.get("index") == chosen.get("index") else ""
+            told = [str(entry.get(name)) for name in ("index", "name", "type", "driver", "api_version")]
+            usable = "yes" if entry.get("usable") else f"no: {entry.get('reason')}"
+            rows.append([mark, *told, f"{int(entry.get('memory', 0)) // _MEBIBYTE:,}", usable])
         lines += ["", *format_table(rows)]
     if findings["chosen"]:
         lines.append(f"chosen: {findings['chosen'].get('chosen_because', 'the first usable one')}")

@@ -8,14 +8,7 @@ import textwrap
 from typing import Any
 
 import photonloupe as pl
-from photonloupe.cli.common import (
-    EXIT_OK,
-    Stopwatch,
-    add_device_option,
-    choose_progress,
-    format_table,
-    print_result,
-)
+from photonloupe.cli.common import EXIT_OK, Stopwatch, add_device_option, choose_progress, format_table, print_result
 from photonloupe.device import open_device
 from photonloupe.settings import add_setting_options, list_settings, read_setting_options
 from photonloupe.storage import check_map_path
@@ -46,14 +39,8 @@ def _describe_settings(settings: dict[str, Any], surface: str, photons: int) -> 
 def _format_steps(rows: list[dict[str, Any]]) -> list[str]:
     table = [["step", "tau", "mean move", "largest move", "mean pressure", "seconds"]]
     for row in rows:
-        table.append(
-            [
-                str(row["step"]),
-                f"{row['tau']:.3f}",
-                *(f"{row[name]:.5f}" for name in ("mean_move", "largest_move", "mean_pressure")),
-                f"{row['seconds']:.2f}",
-            ]
-        )
+        moves = [f"{row[name]:.5f}" for name in ("mean_move", "largest_move", "mean_pressure")]
+        table.append([str(row["step"]), f"{row['tau']:.3f}", *moves, f"{row['seconds']:.2f}"])
     return format_table(table)
 
 
@@ -87,14 +74,10 @@ def run(arguments: argparse.Namespace) -> int:
         "off_surface": report["off_surface"],
         "seconds": watch.seconds,
     }
-
-    def write_lines() -> list[str]:
-        return [
-            *_format_steps(rows),
-            *_describe_settings(report["settings"], report["surface"], len(photons)),
-            f"{arguments.output}: seconds: "
-            + ", ".join(f"{name} {spent:.2f}" for name, spent in watch.seconds.items()),
-        ]
-
-    print_result(arguments, result, write_lines)
+    lines = [
+        *_format_steps(rows),
+        *_describe_settings(report["settings"], report["surface"], len(photons)),
+        f"{arguments.output}: seconds: " + watch.format(),
+    ]
+    print_result(arguments, result, lines)
     return EXIT_OK

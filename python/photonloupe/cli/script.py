@@ -84,15 +84,11 @@ def parse_values(given: list[str]) -> dict[str, float]:
     return values
 
 
-def _list_diagnostics(script: pl.Script) -> list[dict[str, Any]]:
-    return [asdict(diagnostic) for diagnostic in script.diagnostics]
-
-
 def _describe(script: pl.Script) -> dict[str, Any]:
     return {
         "script": script.name,
         "hash": script.hash,
-        "diagnostics": _list_diagnostics(script),
+        "diagnostics": [asdict(diagnostic) for diagnostic in script.diagnostics],
         "exposed": [asdict(variable) for variable in script.exposed],
         "columns": script.columns,
         "passes": [] if script.has_errors else script.passes,
@@ -164,9 +160,6 @@ def _check(arguments: argparse.Namespace, script: pl.Script) -> int:
     result = _describe(script)
     if arguments.glsl and not script.has_errors:
         result["glsl"] = script.glsl()
-    if not arguments.json:
-        for diagnostic in script.diagnostics:
-            print(diagnostic, file=sys.stderr)
     lines = [] if script.has_errors else [*result.get("glsl", [repr(script), *_format_passes(script)])]
     if lines or arguments.json:
         print_result(arguments, result, lines)
@@ -179,6 +172,9 @@ def run(arguments: argparse.Namespace) -> int:
     script = pl.compile_script(Path(arguments.file))
     if arguments.map is None and arguments.output:
         raise ArgumentError("-o writes a map, but no MAP was given to run the script over")
+    if not arguments.json:
+        for diagnostic in script.diagnostics:
+            print(diagnostic, file=sys.stderr)
     if arguments.map is None or script.has_errors:
         return _check(arguments, script)
     if arguments.output:
@@ -204,13 +200,9 @@ def run(arguments: argparse.Namespace) -> int:
     result = {**_describe(script), **_list_run(ran), "output": arguments.output, "seconds": watch.seconds}
     if arguments.glsl:
         result["glsl"] = script.glsl()
-    if not arguments.json:
-        for diagnostic in script.diagnostics:
-            print(diagnostic, file=sys.stderr)
     lines = [*(script.glsl() if arguments.glsl else []), *ran.prints]
     lines += [line for name, histogram in ran.histograms.items() for line in _format_histogram(name, histogram)]
     lines += [*_format_parameters(ran), *format_report(ran.report)]
-    spent = ", ".join(f"{step} {seconds:.2f}" for step, seconds in watch.seconds.items())
-    lines.append(f"{script.name}: {len(photons):,} photons; seconds: {spent}")
+    lines.append(f"{script.name}: {len(photons):,} photons; seconds: {watch.format()}")
     print_result(arguments, result, lines)
     return EXIT_OK
