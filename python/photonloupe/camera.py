@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from photonloupe import _engine
-from photonloupe.checks import check_number
+from photonloupe.checks import check_number, check_vector
 from photonloupe.errors import ArgumentError
 from photonloupe.scene import Scene
 
@@ -52,20 +52,13 @@ def check_camera(scene: Scene, camera: str | Camera | None) -> str | dict[str, A
         If the scene has no camera of that name, or a camera looks nowhere.
     """
     if isinstance(camera, Camera):
-        position, target, up = (_check_vector(name, getattr(camera, name)) for name in ("position", "target", "up"))
+        position, target, up = (
+            check_vector(f"the camera's {name}", getattr(camera, name), _LARGEST)
+            for name in ("position", "target", "up")
+        )
         return dict(_engine.aim_camera(position, target, up, check_number("yfov", camera.yfov, 1e-4, 3.0)))
     names = [str(entry["name"]) for entry in scene.cameras]
     if camera is not None and camera not in names:
         there = f"there are {', '.join(names)}" if names else "the scene has none"
         raise ArgumentError(f"there is no camera {camera!r}; {there}")
     return camera or ""
-
-
-def _check_vector(name: str, values: Sequence[float]) -> list[float]:
-    try:
-        numbers = list(values)
-    except TypeError:
-        numbers = []
-    if len(numbers) != 3:
-        raise ArgumentError(f"the camera's {name} must be three numbers, not {values!r}")
-    return [check_number(f"the camera's {name}", number, -_LARGEST, _LARGEST) for number in numbers]

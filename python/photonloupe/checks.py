@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import math
 import operator
-from collections.abc import Iterable
+import sys
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -42,6 +43,26 @@ def check_choice(name: str, value: Any, choices: Iterable[str]) -> str:
     if value not in known:
         raise ArgumentError(f"{name} must be one of {', '.join(known)}, not {value!r}")
     return str(value)
+
+
+def check_size(size: Sequence[int], low: int, high: int) -> tuple[int, int]:
+    """Return width and height in [`low`, `high`], or raise `ArgumentError`."""
+    try:
+        width, height = size
+    except (TypeError, ValueError):
+        raise ArgumentError(f"size must be (width, height), not {size!r}") from None
+    return check_count("size[0]", width, low, high), check_count("size[1]", height, low, high)
+
+
+def check_vector(name: str, values: Any, largest: float = sys.float_info.max) -> list[float]:
+    """Return three finite numbers of at most `largest` either way, or raise `ArgumentError`."""
+    try:
+        numbers = list(values)
+    except TypeError:
+        numbers = []
+    if len(numbers) != 3:
+        raise ArgumentError(f"{name} must be three numbers, not {values!r}")
+    return [check_number(name, number, -largest, largest) for number in numbers]
 
 
 def check_vectors(name: str, values: ArrayLike, width: int = 3) -> NDArray[np.float64]:

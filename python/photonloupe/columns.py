@@ -108,11 +108,15 @@ def _convert(column: Column, values: ArrayLike) -> NDArray[Any]:
         array = np.array(given, dtype=dtype, order="C", copy=True)
     if dtype.kind == "f":
         _refuse_rows(column.name, ~np.isfinite(array), given, "does not fit a 32-bit float")
-    if column.low is not None:
-        _refuse_rows(column.name, array < column.low, given, f"is below {column.low:g}")
-    if column.high is not None:
-        _refuse_rows(column.name, array > column.high, given, f"is above {column.high:g}")
+    _check_range(column, array)
     return array
+
+
+def _check_range(column: Column, values: NDArray[Any]) -> None:
+    if column.low is not None:
+        _refuse_rows(column.name, values < column.low, values, f"is below {column.low:g}")
+    if column.high is not None:
+        _refuse_rows(column.name, values > column.high, values, f"is above {column.high:g}")
 
 
 def _refuse_rows(name: str, bad: NDArray[np.bool_], values: NDArray[Any], why: str) -> None:
@@ -195,10 +199,7 @@ def check_state(name: str, values: NDArray[Any], count: int) -> NDArray[Any]:
         raise ArgumentError(f"{name} has {len(values)} rows, positions has {count}")
     bad = np.isinf(values) if column.may_be_nan else ~np.isfinite(values)
     _refuse_rows(name, bad, values, "is not finite")
-    if column.low is not None:
-        _refuse_rows(name, values < column.low, values, f"is below {column.low:g}")
-    if column.high is not None:
-        _refuse_rows(name, values > column.high, values, f"is above {column.high:g}")
+    _check_range(column, values)
     return values
 
 

@@ -33,25 +33,30 @@ def find_neighbors(
     progress: ProgressLike = None,
 ) -> Found:
     """Check the query and run it; see `PhotonMap.neighbors`."""
-    k, space, reach = check_look(k, space, beta)
-    if space != "constrained" and (center is not None or ranges is not None):
-        raise ArgumentError('center and ranges lock the layer of space="constrained"')
-    if space != "world" and "parameters" not in photons.recorded:
-        raise ArgumentError(f'space="{space}" needs parameters; set_parameters() or a script sets them')
-    ids, vectors = _read_query(photons, points, space)
-    query: dict[str, Any] = {"space": space, "beta": 0.0, "center": None, "low": None, "high": None}
-    if space == "constrained":
-        query.update(_check_layer(photons, ids is not None, reach, center, ranges, progress))
+    k, query, reach = check_look(photons, k, space, beta, center, ranges)
+    ids, vectors = _read_query(photons, points, query["space"])
+    if query["space"] == "constrained":
+        if ids is None and (center is None) == (ranges is None):
+            raise ArgumentError("points in the constrained space need either center= or ranges=")
+        query.update(check_layer(photons, ids is not None, reach, center, ranges, progress))
     with follow_progress(progress) as callback:
         device = photons.device._native
         found, distances = _engine.find_neighbors(device, photons._native, vectors, ids, k, query, callback)
     return np.asarray(found), np.asarray(distances)
 
 
-def check_look(k: Any, space: Any, beta: Any) -> tuple[int, str, float | str]:
-    """Check how many photons are looked at, and where; β is checked where it counts."""
+def check_look(
+    photons: DevicePhotons, k: Any, space: Any, beta: Any, center: Any, ranges: Any
+) -> tuple[int, dict[str, Any], float | str]:
+    """Check how many photons are looked at, and where; β, center and ranges are checked where they count."""
     known = list_settings("loupe")
-    return known["k"].check(k), known["space"].check(space), known["beta"].default if beta is None else beta
+    k, space = known["k"].check(k), known["space"].check(space)
+    if space != "constrained" and (center is not None or ranges is not None):
+        raise ArgumentError('center and ranges lock the layer of space="constrained"')
+    if space != "world" and "parameters" not in photons.recorded:
+        raise ArgumentError(f'space="{space}" needs parameters; set_parameters() or a script sets them')
+    query = {"space": space, "beta": 0.0, "center": None, "low": None, "high": None}
+    return k, query, known["beta"].default if beta is None else beta
 
 
 def _read_query(
@@ -73,7 +78,7 @@ def _read_query(
     )
 
 
-def _check_layer(
+def check_layer(
     photons: DevicePhotons,
     has_ids: bool,
     beta: float | str,
@@ -81,19 +86,19 @@ def _check_layer(
     ranges: Mapping[int | str, tuple[float, float]] | None,
     progress: ProgressLike,
 ) -> dict[str, Any]:
-    """Who belongs to the layer: neighbors of each id, of one photon, or whoever lies within ranges."""
-    if has_ids:
-        if center is not None or ranges is not None:
-            raise ArgumentError("ids have layers of their own; center and ranges lock the layer around points")
-        return {"beta": check_beta(beta, photons, progress)}
-    if (center is None) == (ranges is None):
-        raise ArgumentError("points in the constrained space need either center= or ranges=")
-    if center is not None:
-        center = check_count("center", center, 0, len(photons) - 1)
-        return {"beta": check_beta(beta, photons, progress), "center": center}
-    assert ranges is not None
-    low, high = read_ranges(photons.parameter_list, ranges)
-    return {"low": low, "high": high}
+    """Who belongs to the layer: neighbors of each photon, of one photon, or whoever lies within ranges."""
+    if has_ids and (center is not None or ranges is not None):
+        raise ArgumentError("photons have layers of their own; center and ranges lock the layer around points")
+    if center is not None and ranges is not None:
+        raise ArgumentError("center and ranges both lock the layer; give one of them")
+    if ranges is not None:
+        low, high = read_ranges(photons.parameter_list, ranges)
+        return {"low": low, "high": high}
+    checked = check_beta(beta, photons, progress)
+    return {
+        "beta": checked,
+        "center": None if center is None else check_count("center", center, 0, len(photons) - 1),
+    }
 
 
 def read_ranges(

@@ -191,3 +191,10 @@ class PhotonMap(PhotonStages):
         if self._relaxation:
             described["relaxation"] = self._relaxation
         return described
+
+
+def check_map(photons: object) -> PhotonMap:
+    """Return the map, or raise `ArgumentError`."""
+    if not isinstance(photons, PhotonMap):
+        raise ArgumentError(f"photons must be a PhotonMap, not {photons!r}")
+    return photons

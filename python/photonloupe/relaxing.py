@@ -101,16 +101,13 @@ class Relaxation(Generic[PhotonsT]):
     @property
     def report(self) -> dict[str, Any]:
         """Settings, one row per step, and where photons move: on their surface, or in tangent planes."""
-        return self._describe()
+        told = {"settings": self.settings, "steps": self._rows, "notes": self.notes}
+        return describe_relaxation({**told, "off_surface": self._native.off_surface}, self._scene)
 
     @property
     def photons(self) -> PhotonsT:
         """The map as it is now, with constraint, drift and pressure."""
-        return self._source.replace(self._native.read(), self._describe())
-
-    def _describe(self) -> dict[str, Any]:
-        told = {"settings": self.settings, "steps": self._rows, "notes": self.notes}
-        return describe_relaxation({**told, "off_surface": self._native.off_surface}, self._scene)
+        return self._source.replace(self._native.read(), self.report)
 
 
 def relax_photons(photons: PhotonsT, progress: ProgressLike, **settings: Unpack[AllRelaxKeywords]) -> PhotonsT:

@@ -13,7 +13,7 @@ from photonloupe.camera import Camera, check_camera
 from photonloupe.device import Device, open_device
 from photonloupe.errors import ArgumentError
 from photonloupe.image import Image
-from photonloupe.photons import PhotonMap
+from photonloupe.photons import PhotonMap, check_map
 from photonloupe.progress import ProgressLike, follow_progress
 from photonloupe.provenance import describe_origin
 from photonloupe.scene import Scene
@@ -95,8 +95,8 @@ def _check_settings(
 ) -> dict[str, Any]:
     if not isinstance(scene, Scene):
         raise ArgumentError(f"scene must come from load_scene, not {scene!r}")
-    if photons is not None and not isinstance(photons, PhotonMap):
-        raise ArgumentError(f"photons must be a PhotonMap, not {photons!r}")
-    if photons is None and settings["mode"] != "direct":
+    if photons is not None:
+        check_map(photons)
+    elif settings["mode"] != "direct":
         raise ArgumentError(f'mode="{settings["mode"]}" needs a photon map; trace_photons makes one')
     return {**settings, "camera": check_camera(scene, camera)}

@@ -226,7 +226,7 @@ def test_photons_without_parameters_have_no_neighbors_there() -> None:
         ({"point": 0, "k": 1001}, "k"),
         ({"point": 0, "space": "here"}, "space"),
         ({"point": 0, "center": 1}, "center and ranges lock"),
-        ({"point": 0, "space": "constrained", "center": 1}, "layer of its own"),
+        ({"point": 0, "space": "constrained", "center": 1}, "layers of their own"),
         ({"point": (0, 0, 0), "space": "constrained", "center": 1_500}, "center"),
         ({"point": (0, 0, 0), "space": "constrained", "center": 1, "ranges": RANGES}, "give one of them"),
         ({"point": (0, 0, 0), "space": "constrained", "ranges": {"phi": (0, 1)}}, "ranges names 'phi'"),

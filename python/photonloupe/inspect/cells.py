@@ -16,7 +16,7 @@ from photonloupe.device import Device, open_device
 from photonloupe.errors import ArgumentError
 from photonloupe.image import Image
 from photonloupe.inspect.columns import require_columns
-from photonloupe.photons import PhotonMap
+from photonloupe.photons import PhotonMap, check_map
 from photonloupe.progress import ProgressLike, follow_progress
 from photonloupe.provenance import describe_origin
 from photonloupe.rendering import MAX_SIDE
@@ -247,8 +247,7 @@ def kd_tree(
 
 
 def _choose_scene(photons: PhotonMap, scene: Scene | None) -> Scene:
-    if not isinstance(photons, PhotonMap):
-        raise ArgumentError(f"photons must be a PhotonMap, not {photons!r}")
+    check_map(photons)
     if scene is None:
         scene = photons.find_surface()
     if scene is None:

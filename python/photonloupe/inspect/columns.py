@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from photonloupe import _engine
 from photonloupe.errors import ArgumentError, PhotonLoupeError
-from photonloupe.photons import PhotonMap
+from photonloupe.photons import PhotonMap, check_map
 from photonloupe.progress import ProgressLike, follow_progress
 
 
@@ -77,7 +77,7 @@ def columns(photons: PhotonMap) -> tuple[ColumnInfo, ...]:
     >>> [info.name for info in pl.inspect.columns(pl.PhotonMap.from_arrays(**pair))][:3]
     ['x', 'y', 'z']
     """
-    rows = [ColumnInfo(**row) for row in _engine.list_columns(_require_map(photons)._native)]
+    rows = [ColumnInfo(**row) for row in _engine.list_columns(check_map(photons)._native)]
     if not photons.can_have_paths:
         return tuple(rows)
     # They are recorded when they are asked for.
@@ -141,9 +141,3 @@ def require_columns(photons: PhotonMap, names: tuple[str, ...]) -> None:
             photons.record_paths()
         except PhotonLoupeError as error:
             raise ArgumentError(f"column {names[0]!r} needs paths: {error}") from error
-
-
-def _require_map(photons: Any) -> PhotonMap:
-    if not isinstance(photons, PhotonMap):
-        raise ArgumentError(f"photons must be a PhotonMap, not {photons!r}")
-    return photons

@@ -11,11 +11,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from photonloupe import _engine
-from photonloupe.checks import check_count, check_vectors
+from photonloupe.checks import check_count, check_vector
 from photonloupe.errors import ArgumentError
-from photonloupe.isotropy import check_beta
-from photonloupe.nearest import check_look, read_ranges
-from photonloupe.photons import PhotonMap
+from photonloupe.nearest import check_layer, check_look
+from photonloupe.photons import PhotonMap, check_map
 from photonloupe.progress import ProgressLike, follow_progress
 from photonloupe.settings import list_settings, takes_settings
 
@@ -160,16 +159,11 @@ def loupe(
     >>> view.center, view.ids.tolist()
     (1, [1, 0])
     """
-    if not isinstance(photons, PhotonMap):
-        raise ArgumentError(f"photons must be a PhotonMap, not {photons!r}")
-    k, space, reach = check_look(k, space, beta)
-    if space != "constrained" and (center is not None or ranges is not None):
-        raise ArgumentError('center and ranges lock the layer of space="constrained"')
-    if space != "world" and "parameters" not in photons.recorded:
-        raise ArgumentError(f'space="{space}" needs parameters; set_parameters() or a script sets them')
-    query = {"k": k, "space": space, "beta": 0.0}
-    query.update(_check_place(photons, point, normal))
-    query.update(_check_layer(photons, query["photon"] is not None, space, reach, center, ranges, progress))
+    check_map(photons)
+    k, query, reach = check_look(photons, k, space, beta, center, ranges)
+    query.update(_check_place(photons, point, normal), k=k)
+    if query["space"] == "constrained":
+        query.update(check_layer(photons, query["photon"] is not None, reach, center, ranges, progress))
     line_count = check_count("paths", paths, 0, list_settings("loupe")["k"].limits[1])
     if line_count and not photons.can_have_paths:
         raise ArgumentError("this map has no paths and cannot record them; give them to from_arrays")
@@ -186,50 +180,14 @@ def _check_place(photons: PhotonMap, point: ArrayLike | int, normal: ArrayLike |
         if len(photons) == 0:
             raise ArgumentError(f"the map is empty; it has no photon {point}")
         return {"photon": check_count("point", int(point), 0, len(photons) - 1), "point": None, "normal": None}
-    place = _check_vector("point", point)
-    facing = None
-    if normal is not None:
-        facing = _check_vector("normal", normal)
-        length = float(np.linalg.norm(facing))
-        if length == 0.0:
-            raise ArgumentError("normal is zero; a normal needs a direction")
-        facing = facing / length
-    return {"photon": None, "point": place.tolist(), "normal": None if facing is None else facing.tolist()}
-
-
-def _check_vector(name: str, value: ArrayLike) -> NDArray[np.float64]:
-    try:
-        given = np.asarray(value)
-    except ValueError:
-        given = np.empty(0)
-    if given.shape != (3,) or given.dtype.kind not in "iuf":
-        raise ArgumentError(f"{name} must be three numbers of shape (3,), not {value!r}")
-    return check_vectors(name, given[None])[0]
-
-
-def _check_layer(
-    photons: PhotonMap,
-    has_id: bool,
-    space: str,
-    beta: float | str,
-    center: int | None,
-    ranges: Mapping[int | str, tuple[float, float]] | None,
-    progress: ProgressLike,
-) -> dict[str, Any]:
-    layer: dict[str, Any] = {"center": None, "low": None, "high": None}
-    if space != "constrained":
-        return layer
-    if has_id and (center is not None or ranges is not None):
-        raise ArgumentError("a photon has a layer of its own; center and ranges lock the layer around a point")
-    if center is not None and ranges is not None:
-        raise ArgumentError("center and ranges both lock the layer; give one of them")
-    if ranges is not None:
-        layer["low"], layer["high"] = read_ranges(photons.parameter_list, ranges)
-        return layer
-    layer["beta"] = check_beta(beta, photons, progress)
-    if center is not None:
-        layer["center"] = check_count("center", center, 0, len(photons) - 1)
-    return layer
+    place = check_vector("point", point)
+    if normal is None:
+        return {"photon": None, "point": place, "normal": None}
+    facing = np.array(check_vector("normal", normal))
+    length = float(np.linalg.norm(facing))
+    if length == 0.0:
+        raise ArgumentError("normal is zero; a normal needs a direction")
+    return {"photon": None, "point": place, "normal": (facing / length).tolist()}
 
 
 def _make_view(native: _engine.PhotonMap, row: dict[str, Any], line_count: int) -> LoupeView:

@@ -5,18 +5,19 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from photonloupe import _engine
-from photonloupe.checks import check_count, check_number, check_rows
+from photonloupe.checks import check_count, check_number, check_rows, check_size
 from photonloupe.device import Device, open_device
 from photonloupe.errors import ArgumentError, FileFormatError, PhotonLoupeError
 from photonloupe.image import Image, decode_srgb, encode_srgb
-from photonloupe.inspect.parallel_axes import Axis, ShownColumn, complete_axis, describe_axis, find_column
+from photonloupe.inspect.columns import Column
+from photonloupe.inspect.parallel_axes import Axis, complete_axis, find_column
 
 if TYPE_CHECKING:
     from photonloupe.photons import PhotonMap
@@ -181,19 +182,19 @@ def parallel_coordinates(
     focus = check_rows([] if selection is None else selection, count)
     color_column, colors = _find_colors(photons, columns[0], color, count)
     settings = {
-        "size": _check_size(size),
+        "size": check_size(size, LEAST_SIDE, LARGEST_SIDE),
         "tension": check_number("tension", tension, 0.0, 1.0),
         "density": bool(density),
         "most_curves": check_count("most_curves", most_curves, 0, 2**31),
     }
-    described = [column.describe() | describe_axis(axis) for column, axis in zip(columns, shown, strict=True)]
+    described = [vars(column) | vars(axis) for column, axis in zip(columns, shown, strict=True)]
     chosen = device if device is not None else getattr(photons, "device", None)
     try:
         figure = _engine.make_parallel_figure(
             open_device(chosen)._native,
             described,
             np.unique(focus).astype(np.uint32),
-            color_column.describe() if color_column else None,
+            vars(color_column) if color_column else None,
             colors,
             settings,
         )
@@ -204,18 +205,12 @@ def parallel_coordinates(
     return _gather_plot(figure, shown, columns, settings["size"])
 
 
-def _check_size(size: Sequence[int]) -> list[int]:
-    if len(tuple(size)) != 2:
-        raise ArgumentError(f"size must be (width, height), not {size!r}")
-    return [check_count(f"size[{i}]", side, LEAST_SIDE, LARGEST_SIDE) for i, side in enumerate(size)]
-
-
 def _complete_axes(
     photons: PhotonMap | Mapping[str, ArrayLike],
     axes: Sequence[str | Axis],
     closed: Iterable[str] | None,
     brushes: Mapping[str, Sequence[tuple[float, float]]],
-) -> tuple[tuple[Axis, ...], list[ShownColumn]]:
+) -> tuple[tuple[Axis, ...], list[Column]]:
     if isinstance(axes, str) or len(axes) == 0:
         raise ArgumentError(f"axes must be a list of at least one name or Axis, not {axes!r}")
     asked = [Axis(axis) if isinstance(axis, str) else axis for axis in axes]
@@ -232,15 +227,14 @@ def _complete_axes(
     shown = []
     for axis, column in zip(asked, columns, strict=True):
         is_closed = column.period > 0 if ellipses is None else axis.name in ellipses
-        brush = (*axis.brush, *brushes.get(axis.name, ()))
-        widened = Axis(axis.name, axis.low, axis.high, axis.closed, axis.periods, axis.flipped, brush)
+        widened = replace(axis, brush=(*axis.brush, *brushes.get(axis.name, ())))
         shown.append(complete_axis(widened, column, is_closed))
     return tuple(shown), columns
 
 
 def _find_colors(
-    photons: PhotonMap | Mapping[str, ArrayLike], first: ShownColumn, color: str | ArrayLike | None, count: int
-) -> tuple[ShownColumn | None, NDArray[np.float32]]:
+    photons: PhotonMap | Mapping[str, ArrayLike], first: Column, color: str | ArrayLike | None, count: int
+) -> tuple[Column | None, NDArray[np.float32]]:
     none = np.empty((0, 3), np.float32)
     if color is None and not isinstance(photons, Mapping) and "colors" in photons.recorded:
         color = photons.colors
@@ -263,7 +257,7 @@ _UNSET = 0.45
 
 
 def _gather_plot(
-    figure: _engine.ParallelFigure, axes: tuple[Axis, ...], columns: list[ShownColumn], size: list[int]
+    figure: _engine.ParallelFigure, axes: tuple[Axis, ...], columns: list[Column], size: tuple[int, int]
 ) -> ParallelCoordinates:
     from photonloupe.inspect.figure_marks import draw_marks  # noqa: PLC0415 - Pillow at first use
 
@@ -277,8 +271,9 @@ def _gather_plot(
         broken += its_broken
     labels = [column.label for column in columns]
     pixels = draw_marks(np.asarray(figure.read_pixels()).reshape(size[1], size[0], 4), figure.read_marks(), labels)
+    provenance = {"plot": "parallel coordinates", "axes": [axis.name for axis in axes]}
     return ParallelCoordinates(
-        image=Image(_LINEAR[pixels], provenance=_describe_plot(axes)),
+        image=Image(_LINEAR[pixels], provenance=provenance),
         axes=axes,
         values=np.stack([column.values for column in columns], axis=1),
         points=points,
@@ -289,7 +284,3 @@ def _gather_plot(
         is_density=figure.is_density,
         _figure=figure,
     )
-
-
-def _describe_plot(axes: tuple[Axis, ...]) -> dict[str, Any]:
-    return {"plot": "parallel coordinates", "axes": [axis.name for axis in axes]}

@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from photonloupe import _engine
-from photonloupe.checks import check_count, check_rows
-from photonloupe.errors import ArgumentError
+from photonloupe.checks import check_count, check_rows, check_size
 from photonloupe.image import Image
 from photonloupe.inspect.columns import require_columns
 from photonloupe.photons import PhotonMap
@@ -110,14 +109,13 @@ def scatter(
     color = "encoding" if color is None else color
     names = (x, y) if color == "encoding" else (x, y, color)
     require_columns(photons, names)
-    if len(tuple(size)) != 2:
-        raise ArgumentError(f"size must be (width, height), not {size!r}")
+    width, height = check_size(size, 1, MAX_SIDE)
     settings = {
         "x": x,
         "y": y,
         "color": color,
-        "width": check_count("size[0]", size[0], 1, MAX_SIDE),
-        "height": check_count("size[1]", size[1], 1, MAX_SIDE),
+        "width": width,
+        "height": height,
         "polar": bool(polar),
         "x_range": None,
         "y_range": None,

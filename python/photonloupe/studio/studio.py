@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from photonloupe import _engine
-from photonloupe.checks import check_count, check_number, check_rows
+from photonloupe.checks import check_count, check_number, check_rows, check_size, check_vector
 from photonloupe.device import Device, open_device
 from photonloupe.errors import ArgumentError
 from photonloupe.image import Image
@@ -88,7 +88,7 @@ class Studio:
         background: bool = False,
         device: Device | int | str | None = None,
     ) -> None:
-        width, height = _check_size(size)
+        width, height = check_size(size, SMALLEST_SIDE, LARGEST_SIDE)
         scale = check_number("scale", scale, 0.5, 4.0)
         self._device = open_device(device)
         loader = MapLoader(self._device)
@@ -217,7 +217,7 @@ class Studio:
         PhotonLoupeError
             Naming the panels there are.
         """
-        width, height = _check_size(size)
+        width, height = check_size(size, SMALLEST_SIDE, LARGEST_SIDE)
         return np.asarray(self._native.panel(name, width, height, check_number("scale", scale, 0.5, 4.0)))
 
     def export_panel(
@@ -225,7 +225,7 @@ class Studio:
     ) -> None:
         """Write one panel as a PNG; parallel coordinates as an SVG too, by the path's suffix."""
         if Path(path).suffix.lower() == ".svg":
-            self._requests.write_svg(name, path, _check_size(size))
+            self._requests.write_svg(name, path, check_size(size, SMALLEST_SIDE, LARGEST_SIDE))
             return
         write_pixels(path, self.panel(name, size, scale))
 
@@ -275,10 +275,7 @@ class Studio:
 
     def look_at(self, point: Sequence[float]) -> None:
         """Move the loupe to a point (3,), m, as the mouse over the view would."""
-        values = np.asarray(point, dtype=np.float64)
-        if values.shape != (3,) or not np.isfinite(values).all():
-            raise ArgumentError(f"point must be three finite numbers, not {point!r}")
-        self._native.look_at([float(value) for value in values])
+        self._native.look_at(check_vector("point", point))
         self.frame()
 
     def wheel(self, steps: float) -> None:
@@ -457,14 +454,3 @@ def _are_alike(first: NDArray[np.uint32] | None, second: NDArray[np.uint32] | No
     if first is None or second is None:
         return first is second
     return np.array_equal(first, second)
-
-
-def _check_size(size: Sequence[int]) -> tuple[int, int]:
-    try:
-        width, height = size
-    except (TypeError, ValueError):
-        raise ArgumentError(f"size must be width and height, not {size!r}") from None
-    return (
-        check_count("width", width, SMALLEST_SIDE, LARGEST_SIDE),
-        check_count("height", height, SMALLEST_SIDE, LARGEST_SIDE),
-    )
