@@ -100,9 +100,7 @@ gpu::Buffer estimate_irradiance(gpu::Device& device, const gpu::Buffer& power, c
     require_k(choose_k(settings));
     gpu::Buffer irradiance(device, points.count * sizeof(glm::vec4), "irradiance");
     if (tree.count == 0) {
-        gpu::Commands commands(device, STAGE);
-        commands.fill(irradiance, 0);
-        commands.run();
+        gpu::fill(device, STAGE, irradiance, 0);
         return irradiance;
     }
     const Estimate estimate{device, power, tree, settings, irradiance, progress};

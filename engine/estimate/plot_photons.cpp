@@ -28,22 +28,15 @@ Image plot_photons(gpu::Device& device, const SceneBuffers& buffers, const Photo
                    const Progress& progress) {
     const std::uint64_t values = std::uint64_t{width} * height * 3;
     gpu::Buffer plot(device, values * sizeof(std::uint32_t), "photon plot");
-    gpu::Commands clear(device, "plot photons");
-    clear.fill(plot, 0);
-    clear.run();
+    gpu::fill(device, "plot photons", plot, 0);
     const double mean = find_mean_flux(photons);
     shared::PlotSettings push{camera, 0, 0, width, height, mean > 0 ? static_cast<float>(1 / mean) : 0.0f};
-    gpu::run_in_chunks(device, "plot photons", photons.count, 4096, progress,
-                       [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
-                           push.first = static_cast<std::uint32_t>(first);
-                           push.count = static_cast<std::uint32_t>(count);
-                           commands.dispatch(name_plot_kernel(),
-                                             {{"geometry", buffers.geometry},
-                                              {"position_emitter", photons.position_emitter},
-                                              {"power_object", photons.power_object},
-                                              {"plot", plot}},
-                                             push, count);
-                       });
+    gpu::dispatch_in_chunks(device, "plot photons", name_plot_kernel(),
+                            {{"geometry", buffers.geometry},
+                             {"position_emitter", photons.position_emitter},
+                             {"power_object", photons.power_object},
+                             {"plot", plot}},
+                            push, photons.count, 4096, progress);
     Image image{width, height, {}, {}};
     for (std::uint32_t value : plot.read<std::uint32_t>(values))
         image.rgb.push_back(static_cast<float>(value) / shared::PLOT_UNIT);

@@ -109,11 +109,6 @@ Buffer::Buffer(Device& device, std::uint64_t size_bytes, const char* purpose) {
     m_impl = std::make_shared<Impl>(device, size_bytes, device.impl().memory_type_main, purpose);
 }
 
-Buffer::Buffer() = default;
-Buffer::~Buffer() = default;
-Buffer::Buffer(Buffer&& other) noexcept = default;
-Buffer& Buffer::operator=(Buffer&& other) noexcept = default;
-
 Buffer Buffer::share() const {
     Buffer other;
     other.m_impl = m_impl;

@@ -14,12 +14,11 @@ class Device;
 // Handle of memory that is freed with its last owner. A default-made buffer is empty and owns nothing.
 class Buffer {
 public:
-    Buffer();
+    Buffer() = default;
     // `purpose` names the content in error messages. Throws MemoryError saying what would fit.
     Buffer(Device& device, std::uint64_t size_bytes, const char* purpose);
-    ~Buffer();
-    Buffer(Buffer&& other) noexcept;
-    Buffer& operator=(Buffer&& other) noexcept;
+    Buffer(Buffer&& other) noexcept = default;
+    Buffer& operator=(Buffer&& other) noexcept = default;
 
     // Another owner of the same memory: for content that nobody changes any more.
     Buffer share() const;

@@ -263,6 +263,19 @@ double Commands::run() {
     return m_impl->cold.empty() ? milliseconds : 0.0; // a first run is the driver's compiler, not the work
 }
 
+void fill(Device& device, const std::string& stage, const Buffer& target, std::uint32_t value) {
+    Commands commands(device, stage);
+    commands.fill(target, value);
+    commands.run();
+}
+
+void copy(Device& device, const std::string& stage, const Buffer& source, const Buffer& target,
+          std::uint64_t size_bytes) {
+    Commands commands(device, stage);
+    commands.copy(source, 0, target, 0, size_bytes);
+    commands.run();
+}
+
 void run_in_chunks(Device& device, const std::string& stage, std::uint64_t total, std::uint64_t granule,
                    const Progress& progress, const std::function<void(Commands&, std::uint64_t, std::uint64_t)>& record,
                    std::uint64_t largest) {

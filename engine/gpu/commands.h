@@ -67,6 +67,18 @@ private:
     std::unique_ptr<Impl> m_impl;
 };
 
+// Runs one step by itself.
+void fill(Device& device, const std::string& stage, const Buffer& target, std::uint32_t value);
+void copy(Device& device, const std::string& stage, const Buffer& source, const Buffer& target,
+          std::uint64_t size_bytes);
+template <class Push>
+void dispatch(Device& device, const std::string& stage, const KernelSource& kernel,
+              std::initializer_list<Binding> bindings, const Push& push, std::uint64_t invocations) {
+    Commands commands(device, stage);
+    commands.dispatch(kernel, bindings, push, invocations);
+    commands.run();
+}
+
 // Runs `record(commands, first, count)` over [0, total) in chunks that are multiples of `granule` and aim at
 // the device's chunk_milliseconds() each and never exceed `largest` (0: what one dispatch of an invocation per item
 // allows), reporting progress between them. How work is cut never changes its result.
@@ -74,5 +86,18 @@ void run_in_chunks(Device& device, const std::string& stage, std::uint64_t total
                    const Progress& progress,
                    const std::function<void(Commands&, std::uint64_t first, std::uint64_t count)>& record,
                    std::uint64_t largest = 0);
+
+// Runs a kernel that way whose push constants say `first` and `count`.
+template <class Push>
+void dispatch_in_chunks(Device& device, const std::string& stage, const KernelSource& kernel,
+                        std::initializer_list<Binding> bindings, Push push, std::uint64_t total, std::uint64_t granule,
+                        const Progress& progress) {
+    run_in_chunks(device, stage, total, granule, progress,
+                  [&](Commands& commands, std::uint64_t first, std::uint64_t count) {
+                      push.first = static_cast<std::uint32_t>(first);
+                      push.count = static_cast<std::uint32_t>(count);
+                      commands.dispatch(kernel, bindings, push, count);
+                  });
+}
 
 } // namespace photonloupe::gpu

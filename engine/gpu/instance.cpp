@@ -8,19 +8,15 @@
 
 #include "core/cache_folder.h"
 #include "core/error.h"
-#include "gpu/validation_allowed.h"
 
 namespace photonloupe::gpu {
 namespace {
 
 constexpr const char* VALIDATION_LAYER = "VK_LAYER_KHRONOS_validation";
 
+// Every message counts: none is let through.
 VKAPI_ATTR VkBool32 VKAPI_CALL collect_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                                const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
-    const std::string_view id = data->pMessageIdName ? data->pMessageIdName : "";
-    for (const AllowedMessage& allowed : ALLOWED_MESSAGES)
-        if (allowed.id == id)
-            return VK_FALSE;
     auto* log = static_cast<ValidationLog*>(user);
     std::lock_guard lock(log->mutex);
     log->messages.emplace_back(data->pMessage ? data->pMessage : "(no text)");

@@ -42,9 +42,8 @@ SelfTest run_self_test(Device& device) {
     const Buffer input = make_buffer(device, numbers, "self-test numbers");
     const Buffer output(device, numbers.size() * sizeof(glm::vec4), "self-test results");
     const auto count = static_cast<std::uint32_t>(numbers.size());
-    Commands commands(device, "self-test");
-    commands.dispatch({"gpu/self_test.comp", 0, {}, {}}, {{"numbers", input}, {"results", output}}, count, count);
-    commands.run();
+    dispatch(device, "self-test", {"gpu/self_test.comp", 0, {}, {}}, {{"numbers", input}, {"results", output}}, count,
+             count);
     SelfTest test;
     test.message = compare(numbers, output.read<glm::vec4>(numbers.size()), device.limits().subgroup_size);
     test.ok = test.message.empty();

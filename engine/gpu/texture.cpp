@@ -76,15 +76,8 @@ std::uint32_t Texture::height() const {
 
 void Commands::Impl::use_texture(Texture::Impl& texture, VkImageLayout layout, VkAccessFlags access,
                                  VkPipelineStageFlags next) {
-    VkImageMemoryBarrier barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};
-    barrier.srcAccessMask = texture.access;
-    barrier.dstAccessMask = access;
-    barrier.oldLayout = texture.layout;
-    barrier.newLayout = layout;
-    barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    barrier.image = texture.image;
-    barrier.subresourceRange = WHOLE;
+    const VkImageMemoryBarrier barrier =
+        describe_barrier(texture.image, texture.layout, layout, texture.access, access);
     gpu().table.vkCmdPipelineBarrier(commands, texture.stage, next, 0, 0, nullptr, 0, nullptr, 1, &barrier);
     texture.layout = layout;
     texture.access = access;

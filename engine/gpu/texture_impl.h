@@ -10,6 +10,20 @@ namespace photonloupe::gpu {
 // As stored: sRGB values that nothing converts.
 constexpr VkFormat TEXTURE_FORMAT = VK_FORMAT_R8G8B8A8_UNORM;
 
+// Of a whole image's color.
+inline VkImageMemoryBarrier describe_barrier(VkImage image, VkImageLayout from, VkImageLayout to, VkAccessFlags before,
+                                             VkAccessFlags after) {
+    return {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
+            .srcAccessMask = before,
+            .dstAccessMask = after,
+            .oldLayout = from,
+            .newLayout = to,
+            .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+            .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+            .image = image,
+            .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
+}
+
 struct Texture::Impl {
     Device* device = nullptr;
     std::uint32_t width = 0;

@@ -27,20 +27,6 @@ VkSurfaceFormatKHR choose_format(VkPhysicalDevice physical, VkSurfaceKHR surface
     throw DeviceError("the window takes no 8-bit pictures; use `studio --screenshot`");
 }
 
-VkImageMemoryBarrier move_picture(VkImage image, VkImageLayout from, VkImageLayout to, VkAccessFlags before,
-                                  VkAccessFlags after) {
-    VkImageMemoryBarrier barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};
-    barrier.srcAccessMask = before;
-    barrier.dstAccessMask = after;
-    barrier.oldLayout = from;
-    barrier.newLayout = to;
-    barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    barrier.image = image;
-    barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    return barrier;
-}
-
 } // namespace
 
 WindowSurface::WindowSurface(Device& device, VkSurfaceKHR surface) : m_device(device), m_surface(surface) {
@@ -133,8 +119,8 @@ void WindowSurface::present(Texture& picture) {
         impl.use_texture(picture.impl(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_ACCESS_TRANSFER_READ_BIT,
                          VK_PIPELINE_STAGE_TRANSFER_BIT);
         const VkImageMemoryBarrier before =
-            move_picture(m_images[index], VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 0,
-                         VK_ACCESS_TRANSFER_WRITE_BIT);
+            describe_barrier(m_images[index], VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 0,
+                             VK_ACCESS_TRANSFER_WRITE_BIT);
         gpu.table.vkCmdPipelineBarrier(impl.commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0,
                                        0, nullptr, 0, nullptr, 1, &before);
         VkImageBlit region{};
@@ -145,8 +131,8 @@ void WindowSurface::present(Texture& picture) {
         gpu.table.vkCmdBlitImage(impl.commands, picture.impl().image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                                  m_images[index], VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_NEAREST);
         const VkImageMemoryBarrier after =
-            move_picture(m_images[index], VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR,
-                         VK_ACCESS_TRANSFER_WRITE_BIT, 0);
+            describe_barrier(m_images[index], VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR,
+                             VK_ACCESS_TRANSFER_WRITE_BIT, 0);
         gpu.table.vkCmdPipelineBarrier(impl.commands, VK_PIPELINE_STAGE_TRANSFER_BIT,
                                        VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, 0, 0, nullptr, 0, nullptr, 1, &after);
         commands.run();

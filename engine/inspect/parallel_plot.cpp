@@ -63,9 +63,7 @@ public:
 
     void run(const UploadedCurves& curves, std::uint32_t first_row, std::uint32_t row_count, std::uint32_t set,
              const Coverage& coverage) {
-        gpu::Commands clear(m_device, "count crossings");
-        clear.fill(m_crossings, 0);
-        clear.run();
+        gpu::fill(m_device, "count crossings", m_crossings, 0);
         count_crossings(curves, first_row, row_count);
         gpu::Commands sum(m_device, "count coverage");
         const shared::CoverageSettings push{m_layout.width,     first_row, row_count, count_jobs(),
@@ -133,12 +131,10 @@ void color_coverage(gpu::Device& device, const AxisLayout& layout, const Coverag
     const gpu::Buffer color_map = gpu::make_buffer(device, entries, "color map");
     const shared::PixelSettings push{
         style.background, glm::vec4(style.context_color, 1), layout.width * layout.height, 0, 0, 0};
-    gpu::Commands commands(device, "color coverage");
-    commands.dispatch(
-        {"inspect/color_coverage.comp", 64, {}, {}},
+    gpu::dispatch(
+        device, "color coverage", {"inspect/color_coverage.comp", 64, {}, {}},
         {{"coverage", coverage.counts}, {"largest", coverage.largest}, {"color_map", color_map}, {"pixels", pixels}},
         push, push.pixel_count);
-    commands.run();
 }
 
 void draw_density(gpu::Device& device, const AxisLayout& layout, const Curves& context, const Curves& selected,
@@ -190,9 +186,7 @@ void fill_background(gpu::Device& device, const CurveStyle& style, const gpu::Bu
     std::uint32_t color = 0;
     for (std::size_t i = 0; i < 4; ++i)
         color |= static_cast<std::uint32_t>(std::clamp(style.background[i], 0.0f, 1.0f) * 255.0f + 0.5f) << (8 * i);
-    gpu::Commands commands(device, "blend curves");
-    commands.fill(pixels, color);
-    commands.run();
+    gpu::fill(device, "blend curves", pixels, color);
 }
 
 void draw_each(gpu::Device& device, const AxisLayout& layout, const Curves& curves,

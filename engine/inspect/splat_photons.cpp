@@ -44,27 +44,18 @@ gpu::Buffer splat_photons(gpu::Device& device, const PhotonMap& photons, const S
     const gpu::Buffer& points = view.surface ? view.surface->points : none;
     const gpu::Buffer& normals = view.surface ? view.surface->normals : none;
     gpu::Buffer sums(device, pixel_count * shared::SPLAT_SUMS * sizeof(std::uint32_t), "point sums");
-    {
-        gpu::Commands clear(device, "draw points");
-        clear.fill(sums, 0);
-        clear.run();
-    }
+    gpu::fill(device, "draw points", sums, 0);
     shared::SplatSettings push = describe_splats(photons, view, style);
     push.has_marks = marks.empty() ? 0 : 1;
     push.has_colors = colors.empty() ? 0 : 1;
-    gpu::run_in_chunks(device, "draw points", photons.count, GRANULE, progress,
-                       [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
-                           push.first = static_cast<std::uint32_t>(first);
-                           push.count = static_cast<std::uint32_t>(count);
-                           commands.dispatch({"inspect/splat_photons.comp", 64, {}, {}},
-                                             {{"position_emitter", photons.position_emitter},
-                                              {"colors", color_buffer},
-                                              {"marks", mark_buffer},
-                                              {"surface_points", points},
-                                              {"surface_normals", normals},
-                                              {"sums", sums}},
-                                             push, count);
-                       });
+    gpu::dispatch_in_chunks(device, "draw points", {"inspect/splat_photons.comp", 64, {}, {}},
+                            {{"position_emitter", photons.position_emitter},
+                             {"colors", color_buffer},
+                             {"marks", mark_buffer},
+                             {"surface_points", points},
+                             {"surface_normals", normals},
+                             {"sums", sums}},
+                            push, photons.count, GRANULE, progress);
     gpu::Buffer pixels(device, pixel_count * sizeof(std::uint32_t), "points");
     shared::ResolveSettings resolve{};
     resolve.eye = view.camera.position;
@@ -75,16 +66,10 @@ gpu::Buffer splat_photons(gpu::Device& device, const PhotonMap& photons, const S
     resolve.has_surface = push.has_surface;
     resolve.unit = push.unit;
     resolve.strength = style.strength;
-    gpu::run_in_chunks(
-        device, "draw points", pixel_count, GRANULE, progress,
-        [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
-            resolve.first = static_cast<std::uint32_t>(first);
-            resolve.count = static_cast<std::uint32_t>(count);
-            commands.dispatch(
-                {"inspect/resolve_splats.comp", 64, {}, {}},
-                {{"sums", sums}, {"surface_points", points}, {"surface_normals", normals}, {"pixels", pixels}}, resolve,
-                count);
-        });
+    gpu::dispatch_in_chunks(
+        device, "draw points", {"inspect/resolve_splats.comp", 64, {}, {}},
+        {{"sums", sums}, {"surface_points", points}, {"surface_normals", normals}, {"pixels", pixels}}, resolve,
+        pixel_count, GRANULE, progress);
     return pixels;
 }
 

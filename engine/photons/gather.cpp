@@ -75,9 +75,7 @@ std::vector<std::uint32_t> run_side_by_side(const Gathering& about, const gpu::K
                                             std::uint64_t first, std::uint64_t count, bool takes_subgroups) {
     // All flags are set: a workgroup that the device stops for its loop turns clears none.
     const gpu::Buffer unanswered(about.device, (first + count) * sizeof(std::uint32_t), "unanswered queries");
-    gpu::Commands commands(about.device, about.stage);
-    commands.fill(unanswered, 1);
-    commands.run();
+    gpu::fill(about.device, about.stage, unanswered, 1);
     const gpu::Buffer none = gpu::make_buffer(about.device, std::vector<glm::uvec2>(1), "single queries");
     std::vector<gpu::Binding> bindings = about.bind(more);
     for (const char* name : {"singles", "saved_walks", "saved_lists"})

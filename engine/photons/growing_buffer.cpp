@@ -15,11 +15,8 @@ constexpr std::uint64_t WASTE_DIVISOR = 8;
 gpu::Buffer copy_into_new(gpu::Device& device, const gpu::Buffer& old, std::uint64_t size_bytes,
                           std::uint64_t used_bytes, const char* purpose) {
     gpu::Buffer grown(device, size_bytes, purpose);
-    if (used_bytes > 0) {
-        gpu::Commands commands(device, "resize columns");
-        commands.copy(old, 0, grown, 0, used_bytes);
-        commands.run();
-    }
+    if (used_bytes > 0)
+        gpu::copy(device, "resize columns", old, grown, used_bytes);
     return grown;
 }
 

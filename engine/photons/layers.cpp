@@ -151,12 +151,12 @@ ParameterTree build_layered_tree(gpu::Device& device, const PhotonMap& photons,
     return {std::move(parameters), std::move(tree), parameter_scale};
 }
 
-Neighborhood look_in(const ParameterTree& tree, Measure measure) {
-    Neighborhood neighborhood{tree.tree, measure};
-    neighborhood.axis_count = tree.parameters->rows.axis_count;
-    neighborhood.row_periods = &tree.parameters->periods;
-    neighborhood.has_periods = tree.parameters->has_periods;
-    return neighborhood;
+Neighborhood look_in(const KdTree& tree, const ParameterRows& rows, Measure measure) {
+    return {.tree = tree,
+            .measure = measure,
+            .axis_count = rows.rows.axis_count,
+            .row_periods = &rows.periods,
+            .has_periods = rows.has_periods};
 }
 
 gpu::Buffer find_parameter_radii(gpu::Device& device, const ParameterTree& tree, const Queries& queries,
@@ -177,17 +177,10 @@ gpu::Buffer find_layer_reaches(gpu::Device& device, const ParameterTree& by_para
     const gpu::Buffer by_id(device, bytes, "reaches of layers");
     gpu::Buffer reaches(device, bytes, "reaches of layers");
     const auto run = [&](const char* kernel, const KdTree& order, const gpu::Buffer& to) {
-        gpu::run_in_chunks(device, STAGE, tree.count, 1 << 14, progress,
-                           [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
-                               const shared::ReachSettings push{static_cast<std::uint32_t>(first),
-                                                                static_cast<std::uint32_t>(count), k, beta};
-                               commands.dispatch({kernel, GROUP, {}, {}},
-                                                 {{"tree_positions", order.positions},
-                                                  {"radii", radii},
-                                                  {"reaches_by_id", by_id},
-                                                  {"tree_reaches", to}},
-                                                 push, count);
-                           });
+        gpu::dispatch_in_chunks(
+            device, STAGE, {kernel, GROUP, {}, {}},
+            {{"tree_positions", order.positions}, {"radii", radii}, {"reaches_by_id", by_id}, {"tree_reaches", to}},
+            shared::ReachSettings{0, 0, k, beta}, tree.count, 1 << 14, progress);
     };
     run("photons/scale_reaches.comp", tree, reaches);
     run("photons/order_reaches.comp", layered, reaches);

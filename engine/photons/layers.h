@@ -46,7 +46,10 @@ ParameterTree build_layered_tree(gpu::Device& device, const PhotonMap& photons,
                                  const Progress& progress = {});
 
 // What is sought in such a tree; layers and intervals are still to be named.
-Neighborhood look_in(const ParameterTree& tree, Measure measure);
+Neighborhood look_in(const KdTree& tree, const ParameterRows& rows, Measure measure);
+inline Neighborhood look_in(const ParameterTree& tree, Measure measure) {
+    return look_in(tree.tree, *tree.parameters, measure);
+}
 
 // The distance r_q of each query to its k-th neighbour in parameter space as radii (x squared, w photons found, their
 // own photon among them).

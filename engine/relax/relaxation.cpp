@@ -46,9 +46,7 @@ gpu::KernelSource name_sum_kernel() {
 
 gpu::Buffer make_filled(gpu::Device& device, std::uint64_t bytes, const char* purpose) {
     gpu::Buffer buffer(device, bytes, purpose);
-    gpu::Commands commands(device, STAGE);
-    commands.fill(buffer, 0);
-    commands.run();
+    gpu::fill(device, STAGE, buffer, 0);
     return buffer;
 }
 
@@ -79,15 +77,6 @@ void bring(const std::vector<glm::vec4>& before, const KdTree& tree, std::initia
     }
 }
 
-void bring_rows(const std::vector<glm::vec4>& before, const KdTree& tree, std::initializer_list<gpu::Buffer*> columns) {
-    bring<glm::vec4>(before, tree, columns);
-}
-
-void bring_numbers(const std::vector<glm::vec4>& before, const KdTree& tree,
-                   std::initializer_list<gpu::Buffer*> columns) {
-    bring<std::uint32_t>(before, tree, columns);
-}
-
 } // namespace
 
 Relaxation::Relaxation(gpu::Device& device, const PhotonMap& photons, const RelaxTrees& trees,
@@ -113,9 +102,7 @@ Relaxation::Relaxation(gpu::Device& device, const PhotonMap& photons, const Rela
         shift_photons();
     m_start = gpu::Buffer(device, count * sizeof(glm::vec4), "photons before relaxation");
     m_next = gpu::Buffer(device, count * sizeof(glm::vec4), "photons after a step");
-    gpu::Commands commands(device, STAGE);
-    commands.copy(m_tree.positions, 0, m_start, 0, count * sizeof(glm::vec4));
-    commands.run();
+    gpu::copy(device, STAGE, m_tree.positions, m_start, count * sizeof(glm::vec4));
     m_spacing = find_spacing(m_tree);
     if (m_settings.diffuse_flux)
         order_power();
@@ -146,7 +133,7 @@ void Relaxation::constrain(const RelaxTrees& trees, const Progress& progress) {
     m_constraint =
         measure_constraint(m_device, layers, ask_photons(layered.tree, &reach2), m_settings, m_radii, progress);
     if (m_settings.repel == Space::world)
-        bring_rows(
+        bring<glm::vec4>(
             layered.tree.positions.read<glm::vec4>(m_photons.count), m_tree,
             {&m_constraint.along, &m_constraint.across, &m_constraint.offsets, &m_constraint.member_radii, &m_radii});
 }
@@ -185,15 +172,11 @@ std::array<float, 3> Relaxation::find_period() const {
 
 // What the photons look for in each step, where they are now.
 Neighborhood Relaxation::look() const {
-    Neighborhood neighborhood{m_tree, Measure::surface};
+    Neighborhood neighborhood =
+        m_parameters ? look_in(m_tree, *m_parameters, Measure::surface) : Neighborhood{m_tree, Measure::surface};
+    neighborhood.is_layered = m_parameters != nullptr;
     neighborhood.period = find_period();
     neighborhood.flat_axes = m_flat_axes;
-    if (m_parameters) {
-        neighborhood.is_layered = true;
-        neighborhood.axis_count = m_parameters->rows.axis_count;
-        neighborhood.row_periods = &m_parameters->periods;
-        neighborhood.has_periods = m_parameters->has_periods;
-    }
     return neighborhood;
 }
 
@@ -225,19 +208,14 @@ void Relaxation::shift_photons() {
 
 void Relaxation::find_surface(const Progress& progress) {
     m_triangles = gpu::Buffer(m_device, m_photons.count * sizeof(std::uint32_t), "photons' triangles");
-    gpu::run_in_chunks(m_device, STAGE, m_photons.count, FIRST_CHUNK, progress,
-                       [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
-                           const shared::MoveSettings push{static_cast<std::uint32_t>(first),
-                                                           static_cast<std::uint32_t>(count), 0, 0};
-                           commands.dispatch(name_surface_kernel(),
-                                             {{"tree_positions", m_tree.positions},
-                                              {"tree_normals", m_tree.normals},
-                                              {"power_object", m_photons.power_object},
-                                              {"radii", m_radii},
-                                              {"geometry", m_surface.scene->geometry},
-                                              {"photon_triangles", m_triangles}},
-                                             push, count);
-                       });
+    gpu::dispatch_in_chunks(m_device, STAGE, name_surface_kernel(),
+                            {{"tree_positions", m_tree.positions},
+                             {"tree_normals", m_tree.normals},
+                             {"power_object", m_photons.power_object},
+                             {"radii", m_radii},
+                             {"geometry", m_surface.scene->geometry},
+                             {"photon_triangles", m_triangles}},
+                            shared::MoveSettings{0, 0, 0, 0}, m_photons.count, FIRST_CHUNK, progress);
 }
 
 // Of a step; the first seeks its radii.
@@ -317,35 +295,29 @@ void Relaxation::rebuild_tree(const Progress& progress) {
         position.w = before[std::bit_cast<std::uint32_t>(position.w)].w;
     tree.positions.upload(positions.data(), count * sizeof(glm::vec4));
     m_tree = std::move(tree);
-    bring_rows(before, m_tree,
-               {&m_start, &m_moves, &m_radii, &m_power, &m_constraint.along, &m_constraint.across,
-                &m_constraint.offsets, &m_constraint.member_radii});
-    bring_numbers(before, m_tree, {&m_triangles, &m_reach2});
+    bring<glm::vec4>(before, m_tree,
+                     {&m_start, &m_moves, &m_radii, &m_power, &m_constraint.along, &m_constraint.across,
+                      &m_constraint.offsets, &m_constraint.member_radii});
+    bring<std::uint32_t>(before, m_tree, {&m_triangles, &m_reach2});
     m_travel = 0;
 }
 
 void Relaxation::move(const Progress& progress) {
-    const gpu::KernelSource kernel = name_move_kernel();
     const SceneBuffers* scene = m_surface.scene.get();
     const bool is_constrained = m_settings.constrains();
     const gpu::Buffer& unused = m_next;
-    gpu::run_in_chunks(m_device, STAGE, m_photons.count, FIRST_CHUNK, progress,
-                       [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
-                           const shared::MoveSettings push{static_cast<std::uint32_t>(first),
-                                                           static_cast<std::uint32_t>(count), 0, 0};
-                           commands.dispatch(kernel,
-                                             {{"tree_positions_before", m_tree.positions},
-                                              {"tree_positions_after", m_next},
-                                              {"moves", m_moves},
-                                              {"power_object", m_photons.power_object},
-                                              {"geometry", scene ? scene->geometry : m_tree.nodes},
-                                              {"shading_normals", scene ? scene->normals : m_tree.nodes},
-                                              {"tree_normals", m_tree.normals},
-                                              {"photon_triangles", scene ? m_triangles : m_radii},
-                                              {"constraint_along", is_constrained ? m_constraint.along : unused},
-                                              {"constraint_across", is_constrained ? m_constraint.across : unused}},
-                                             push, count);
-                       });
+    gpu::dispatch_in_chunks(m_device, STAGE, name_move_kernel(),
+                            {{"tree_positions_before", m_tree.positions},
+                             {"tree_positions_after", m_next},
+                             {"moves", m_moves},
+                             {"power_object", m_photons.power_object},
+                             {"geometry", scene ? scene->geometry : m_tree.nodes},
+                             {"shading_normals", scene ? scene->normals : m_tree.nodes},
+                             {"tree_normals", m_tree.normals},
+                             {"photon_triangles", scene ? m_triangles : m_radii},
+                             {"constraint_along", is_constrained ? m_constraint.along : unused},
+                             {"constraint_across", is_constrained ? m_constraint.across : unused}},
+                            shared::MoveSettings{0, 0, 0, 0}, m_photons.count, FIRST_CHUNK, progress);
     std::swap(m_tree.positions, m_next);
     refit_tree(m_device, m_tree, STAGE);
 }
@@ -379,10 +351,9 @@ StepReport Relaxation::report_step(float tau) {
         return report;
     const std::uint64_t runs = (count + shared::SUM_RUN - 1) / shared::SUM_RUN;
     const gpu::Buffer sums(m_device, runs * sizeof(glm::vec4), "sums of moves");
-    gpu::Commands commands(m_device, STAGE);
     const shared::MoveSettings push{0, static_cast<std::uint32_t>(runs), static_cast<std::uint32_t>(count), 0};
-    commands.dispatch(name_sum_kernel(), {{"moves", m_moves}, {"radii", m_radii}, {"move_sums", sums}}, push, runs);
-    commands.run();
+    gpu::dispatch(m_device, STAGE, name_sum_kernel(), {{"moves", m_moves}, {"radii", m_radii}, {"move_sums", sums}},
+                  push, runs);
     for (const glm::vec4& sum : sums.read<glm::vec4>(runs)) {
         report.mean_move += sum.x;
         report.largest_move = std::max(report.largest_move, static_cast<double>(sum.y));

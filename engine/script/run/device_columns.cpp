@@ -17,9 +17,7 @@ DeviceColumns::DeviceColumns(gpu::Device& device, std::uint64_t photon_count, Sc
 
 void DeviceColumns::allocate(gpu::Buffer& buffer, std::uint64_t size_bytes, const char* purpose) {
     buffer = gpu::Buffer(m_device, std::max<std::uint64_t>(size_bytes, sizeof(glm::vec4)), purpose);
-    gpu::Commands commands(m_device, "clear columns");
-    commands.fill(buffer, UNSET_BITS);
-    commands.run();
+    gpu::fill(m_device, "clear columns", buffer, UNSET_BITS);
 }
 
 void DeviceColumns::prepare() {

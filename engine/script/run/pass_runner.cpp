@@ -56,9 +56,7 @@ bool PassRunner::run(const PhotonLoop& loop, Interpreter& interpreter, LoopRepor
     const bool may_repeat = loop.sets_parameters && loop.reads_own_parameters;
     if (may_repeat && !m_columns.parameters().is_empty()) {
         work.kept_parameters = gpu::Buffer(m_device, m_columns.parameters().size_bytes(), "script parameters");
-        gpu::Commands copy(m_device, STAGE);
-        copy.copy(m_columns.parameters(), 0, work.kept_parameters, 0, m_columns.parameters().size_bytes());
-        copy.run();
+        gpu::copy(m_device, STAGE, m_columns.parameters(), work.kept_parameters, m_columns.parameters().size_bytes());
     }
     bool is_done = false;
     try {
@@ -109,9 +107,7 @@ void PassRunner::start_anew(Work& work) const {
 void PassRunner::restore_columns(Work& work) const {
     if (work.kept_parameters.is_empty())
         return;
-    gpu::Commands copy(m_device, STAGE);
-    copy.copy(work.kept_parameters, 0, m_columns.parameters(), 0, work.kept_parameters.size_bytes());
-    copy.run();
+    gpu::copy(m_device, STAGE, work.kept_parameters, m_columns.parameters(), work.kept_parameters.size_bytes());
 }
 
 // Blocks whose lanes and rows fit together.
