@@ -8,6 +8,8 @@
 #include <glm/vec3.hpp>
 
 #include "image/image.h"
+#include "inspect/surface_view.h"
+#include "photons/kd_tree.h"
 
 namespace photonloupe::inspect {
 
@@ -17,6 +19,12 @@ struct CellImage {
     std::vector<float> depth;            // metres along the view's axis; inf: no surface
     std::vector<std::uint8_t> is_border; // the right or the lower neighbour belongs to another cell
 };
+
+// Size and depth of the view, nobody's anywhere and no borders.
+CellImage make_cell_image(const SurfaceView& view);
+
+// What the kernels that walk from pixels into the tree share.
+shared::CellSettings make_cell_settings(const PhotonMap& photons, const KdTree& tree, const SurfaceView& view);
 
 // Fills is_border from ids.
 void find_borders(CellImage& image);

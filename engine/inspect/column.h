@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -19,5 +20,11 @@ struct Column {
 
 // What is chosen: photon ids, ascending. Views show everything when there is no selection.
 using Selection = std::vector<std::uint32_t>;
+
+inline Selection select_all(std::size_t count) {
+    Selection all(count);
+    std::iota(all.begin(), all.end(), 0u);
+    return all;
+}
 
 } // namespace photonloupe::inspect

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "inspect/luminance.h"
 #include "inspect/photon_colors.h"
 
 namespace photonloupe::inspect {

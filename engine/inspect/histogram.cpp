@@ -68,19 +68,18 @@ ColumnHistogram count_column(const Column& column, std::uint32_t bins, std::opti
     return histogram;
 }
 
+double find_quantile(std::vector<double>& finite, double share) {
+    const double rank = share * static_cast<double>(finite.size() - 1);
+    const auto below = finite.begin() + static_cast<std::ptrdiff_t>(rank);
+    std::nth_element(finite.begin(), below, finite.end());
+    const double low = *below, rest = rank - std::floor(rank);
+    return rest > 0 ? low + rest * (*std::min_element(below + 1, finite.end()) - low) : low;
+}
+
 double find_quantile(std::span<const float> values, double share) {
-    std::vector<float> finite;
+    std::vector<double> finite;
     std::copy_if(values.begin(), values.end(), std::back_inserter(finite), [](float v) { return std::isfinite(v); });
-    if (finite.empty() || !(share >= 0 && share <= 1))
-        return UNDEFINED;
-    const double place = share * static_cast<double>(finite.size() - 1);
-    const auto at = static_cast<std::ptrdiff_t>(place);
-    std::nth_element(finite.begin(), finite.begin() + at, finite.end());
-    const double lower = finite[static_cast<std::size_t>(at)];
-    if (at + 1 == static_cast<std::ptrdiff_t>(finite.size()))
-        return lower;
-    const double upper = *std::min_element(finite.begin() + at + 1, finite.end());
-    return lower + (upper - lower) * (place - static_cast<double>(at));
+    return finite.empty() || !(share >= 0 && share <= 1) ? UNDEFINED : find_quantile(finite, share);
 }
 
 double find_share_above(std::span<const float> values, double threshold) {

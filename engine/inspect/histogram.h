@@ -27,6 +27,8 @@ inline constexpr std::uint32_t MAX_BINS = 65536;
 
 // The value that a share of the finite ones lie below, between neighbours linearly; NaN where none is finite.
 double find_quantile(std::span<const float> values, double share);
+// The same of finite ones, of which there are some; reorders them.
+double find_quantile(std::vector<double>& finite, double share);
 
 // Share of the finite values above a threshold; NaN where none is finite.
 double find_share_above(std::span<const float> values, double threshold);

@@ -2,10 +2,7 @@
 // Descends from pixels to nodes, and reads boxes.
 #include "inspect/kd_cells.h"
 
-#include <bit>
-
 #include "gpu/commands.h"
-#include "inspect/cell_walks.h"
 
 namespace photonloupe::inspect {
 namespace {
@@ -19,23 +16,17 @@ std::uint32_t choose_level(const KdTree& tree, std::optional<std::uint32_t> dept
 CellImage find_kd_cells(gpu::Device& device, const PhotonMap& photons, const KdTree& tree, const SurfaceView& view,
                         std::optional<std::uint32_t> depth, const Progress& progress) {
     CellImage image = make_cell_image(view);
-    image.is_border.assign(image.ids.size(), 0);
     if (tree.count == 0)
         return image;
     shared::CellSettings push = make_cell_settings(photons, tree, view);
     push.level = choose_level(tree, depth);
     const gpu::Buffer nodes(device, view.pixel_count() * sizeof(std::uint32_t), "nodes seen");
-    gpu::run_in_chunks(device, "find nodes", view.pixel_count(), 4096, progress,
-                       [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
-                           push.first = static_cast<std::uint32_t>(first);
-                           push.count = static_cast<std::uint32_t>(count);
-                           commands.dispatch({"inspect/find_nodes.comp", 64, {}, {}},
-                                             {{"tree_nodes", tree.nodes},
-                                              {"tree_positions", tree.positions},
-                                              {"surface_points", view.points},
-                                              {"nodes", nodes}},
-                                             push, count);
-                       });
+    gpu::dispatch_in_chunks(device, "find nodes", {"inspect/find_nodes.comp", 64, {}, {}},
+                            {{"tree_nodes", tree.nodes},
+                             {"tree_positions", tree.positions},
+                             {"surface_points", view.points},
+                             {"nodes", nodes}},
+                            push, view.pixel_count(), 4096, progress);
     image.ids = nodes.read<std::int32_t>(view.pixel_count());
     find_borders(image);
     return image;

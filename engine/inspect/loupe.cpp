@@ -8,9 +8,9 @@
 #include <glm/geometric.hpp>
 
 #include "inspect/path_view.h"
-#include "inspect/read_rows.h"
 #include "photons/map_columns.h"
 #include "photons/neighbor_queries.h"
+#include "photons/select_photons.h"
 
 namespace photonloupe::inspect {
 namespace {

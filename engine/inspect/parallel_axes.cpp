@@ -22,10 +22,6 @@ constexpr float ROUNDEST = 0.5f;
 constexpr float LEAST_SPACING = 6;
 constexpr float LEAST_HEIGHT = 8;
 
-double find_turn_length(const Axis& axis) {
-    return (double(axis.high) - axis.low) / axis.periods;
-}
-
 double wrap(double share) {
     const double rest = share - std::floor(share);
     return rest >= 1 ? 0 : rest; // NaN stays NaN
@@ -111,7 +107,7 @@ float find_value(const Axis& axis, const AxisPlace& place, glm::vec2 pixel, std:
         return static_cast<float>(axis.low + extent * (axis.is_flipped ? 1 - along : along));
     }
     const double along = wrap(std::atan2(offset.x / place.rx, offset.y / place.ry) / TURN);
-    const double turn = find_turn_length(axis);
+    const double turn = axis.turn();
     const double first = axis.low + turn * (axis.is_flipped ? wrap(1 - along) : along);
     if (!near || turn == 0)
         return static_cast<float>(first);

@@ -27,6 +27,8 @@ struct Axis {
     bool is_closed = false;        // an ellipse whose start is its end
     std::uint32_t periods = 1;     // closed: how often the range winds round it
     std::vector<Interval> brushes; // values in any of them are selected; none: all are
+
+    double turn() const { return (double(high) - low) / periods; } // closed: the range that winds round it once
 };
 
 // Where an axis stands, in pixels, y downwards: an open one is the line from (x, y + ry) to (x, y - ry).

@@ -2,7 +2,6 @@
 // Intervals brushed on the axes: the photons they select, or-ed on an axis and and-ed between axes, and their outlines.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <glm/geometric.hpp>
 
@@ -13,10 +12,6 @@ namespace {
 
 // Straight pieces of a brush's outline on an ellipse.
 constexpr int ARC_STEPS = 64;
-
-double find_turn(const Axis& axis) {
-    return (double(axis.high) - axis.low) / axis.periods;
-}
 
 double wrap_difference(double value, double turn) {
     return value - turn * std::floor(value / turn);
@@ -33,7 +28,7 @@ bool is_in_arc(const Interval& brush, double turn, float value) {
 bool is_brushed(const Axis& axis, float value) {
     if (!std::isfinite(value))
         return false;
-    const double turn = find_turn(axis);
+    const double turn = axis.turn();
     return std::any_of(axis.brushes.begin(), axis.brushes.end(), [&](const Interval& brush) {
         return axis.is_closed ? is_in_arc(brush, turn, value) : value >= brush.low && value <= brush.high;
     });
@@ -45,7 +40,7 @@ struct ShareRange {
 };
 
 ShareRange find_range(const Axis& axis, const Interval& brush) {
-    const double turn = find_turn(axis);
+    const double turn = axis.turn();
     if (!axis.is_closed || !(turn > 0))
         return {find_share(axis, std::clamp(brush.low, axis.low, axis.high)),
                 find_share(axis, std::clamp(brush.high, axis.low, axis.high))};
@@ -79,11 +74,7 @@ std::vector<glm::vec2> outline_brush(const Axis& axis, const AxisPlace& place, c
 }
 
 Selection select_brushed(std::span<const Axis> axes, std::span<const Column> columns, const Selection& within) {
-    Selection chosen = within;
-    if (within.empty() && !columns.empty()) {
-        chosen.resize(columns[0].values.size());
-        std::iota(chosen.begin(), chosen.end(), 0u);
-    }
+    Selection chosen = within.empty() && !columns.empty() ? select_all(columns[0].values.size()) : within;
     for (const Axis& axis : axes) {
         if (axis.brushes.empty())
             continue;

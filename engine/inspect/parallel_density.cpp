@@ -8,6 +8,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "inspect/histogram.h"
+
 namespace photonloupe::inspect {
 namespace {
 
@@ -26,15 +28,6 @@ std::vector<double> list_finite(const Column& column, const Selection& photons) 
         if (std::isfinite(column.values[photon]))
             values.push_back(column.values[photon]);
     return values;
-}
-
-// Between the two nearest ranks. Reorders the values.
-double find_quantile(std::vector<double>& values, double share) {
-    const double rank = share * static_cast<double>(values.size() - 1);
-    const auto below = values.begin() + static_cast<std::ptrdiff_t>(rank);
-    std::nth_element(values.begin(), below, values.end());
-    const double low = *below, rest = rank - std::floor(rank);
-    return rest > 0 ? low + rest * (*std::min_element(below + 1, values.end()) - low) : low;
 }
 
 double find_bandwidth(std::vector<double>& values) {

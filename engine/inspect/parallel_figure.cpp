@@ -3,7 +3,6 @@
 #include "inspect/parallel_figure.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "core/split_work.h"
 #include "inspect/colormap.h"
@@ -13,12 +12,6 @@ namespace {
 
 // Photons whose density another thread would not get sooner.
 constexpr std::size_t SMALL_SELECTION = 4096;
-
-Selection list_all(std::span<const Column> columns) {
-    Selection all(columns.empty() ? 0 : columns[0].values.size());
-    std::iota(all.begin(), all.end(), 0u);
-    return all;
-}
 
 Selection subtract(const Selection& first, const Selection& second) {
     Selection rest;
@@ -64,14 +57,13 @@ std::vector<glm::vec3> choose_colors(const CurveColors& colors, const Selection&
 } // namespace
 
 ParallelFigure make_parallel_figure(gpu::Device& device, std::span<const Column> columns, std::vector<Axis> axes,
-                                    const Selection& focus, const CurveColors& colors,
-                                    const FigureSettings& settings) {
+                                    const Selection& focus, const CurveColors& colors, const FigureSettings& settings) {
     check_axes(columns, axes);
     ParallelFigure figure;
     figure.axes = std::move(axes);
     figure.style = settings.style;
     figure.layout = place_axes(figure.axes, settings.width, settings.height, settings.margins);
-    const Selection all = list_all(columns);
+    const Selection all = select_all(columns.empty() ? 0 : columns[0].values.size());
     Selection selected = select_brushed(figure.axes, columns, focus);
     figure.context = build_curves(columns, figure.axes, figure.layout, subtract(all, selected), settings.tension);
     figure.selected = build_curves(columns, figure.axes, figure.layout, std::move(selected), settings.tension);

@@ -9,6 +9,7 @@
 
 #include "core/atomic_file.h"
 #include "image/png.h"
+#include "inspect/photon_colors.h"
 
 namespace photonloupe::inspect {
 namespace {
@@ -85,17 +86,12 @@ std::string encode_base64(std::span<const unsigned char> bytes) {
     return text;
 }
 
-float decode_srgb(std::uint8_t byte) {
-    const float coded = byte / 255.0f;
-    return coded <= 0.04045f ? coded / 12.92f : std::pow((coded + 0.055f) / 1.055f, 2.4f);
-}
-
 void add_image(std::string& svg, const CurveImage& source) {
     Image image{source.width, source.height, {}, {}};
     const std::vector<std::uint8_t> pixels = read_pixels(source);
     for (std::size_t i = 0; i < pixels.size(); ++i)
         if (i % 4 != 3)
-            image.rgb.push_back(decode_srgb(pixels[i]));
+            image.rgb.push_back(linearize(pixels[i] / 255.0f));
     svg += format("<image width=\"%u\" height=\"%u\" href=\"data:image/png;base64,", source.width, source.height);
     svg += encode_base64(encode_png(image, 0)) + "\"/>\n";
 }

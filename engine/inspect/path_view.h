@@ -2,7 +2,6 @@
 // One photon's path on the host, and what is measured along it ([SJL15] eqs. 1, 2; METHODS §4).
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>

@@ -8,13 +8,10 @@
 #include "shared/random.h"
 
 namespace photonloupe::inspect {
-namespace {
 
-float linearize(float value) {
-    return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
+float linearize(float srgb) {
+    return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
 }
-
-} // namespace
 
 glm::vec3 linearize(const glm::vec3& srgb) {
     return {linearize(srgb.r), linearize(srgb.g), linearize(srgb.b)};

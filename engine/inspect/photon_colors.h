@@ -12,8 +12,14 @@
 
 namespace photonloupe::inspect {
 
-// Linear light of an sRGB color.
+// Linear light of an sRGB channel or color.
+float linearize(float srgb);
 glm::vec3 linearize(const glm::vec3& srgb);
+
+// Luminance of linear Rec. 709, as shaders/estimate/luminance.glsl has it.
+inline float find_luminance(const glm::vec3& rgb) {
+    return 0.2126f * rgb.r + 0.7152f * rgb.g + 0.0722f * rgb.b;
+}
 
 // Of a number: the same on every run, neighbours apart.
 glm::vec3 hash_color(std::uint32_t id);

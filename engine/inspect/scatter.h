@@ -57,4 +57,8 @@ struct ScatterPlot {
 ScatterPlot plot_scatter(const Column& x, const Column& y, std::span<const glm::vec3> colors,
                          const Selection* selection, const ScatterSettings& settings);
 
+// Ids whose place in the plot lies inside, by the even-odd rule; `polygon` is in pixels and closes itself.
+Selection find_in_lasso(const Column& x, const Column& y, const ScatterFrame& frame,
+                        std::span<const glm::dvec2> polygon);
+
 } // namespace photonloupe::inspect

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 
-#include "photons/limits.h"
 #include "photons/search_space.h"
 
 namespace photonloupe::inspect {

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "gpu/commands.h"
-#include "inspect/cell_walks.h"
 
 namespace photonloupe::inspect {
 namespace {
@@ -28,20 +27,15 @@ gpu::Buffer start_walks(gpu::Device& device, std::uint64_t count) {
 
 void walk_on(gpu::Device& device, const KdTree& tree, const SurfaceView& view, const gpu::Buffer& walks,
              shared::CellSettings settings, const Progress& progress) {
-    gpu::run_in_chunks(device, STAGE, view.pixel_count(), 4096, progress,
-                       [&](gpu::Commands& commands, std::uint64_t first, std::uint64_t count) {
-                           settings.first = static_cast<std::uint32_t>(first);
-                           settings.count = static_cast<std::uint32_t>(count);
-                           commands.dispatch({"inspect/find_cells.comp", 64, {}, {}},
-                                             {{"tree_nodes", tree.nodes},
-                                              {"tree_positions", tree.positions},
-                                              {"tree_normals", tree.normals},
-                                              {"normal_bounds", tree.normal_boxes},
-                                              {"surface_points", view.points},
-                                              {"surface_normals", view.normals},
-                                              {"walks", walks}},
-                                             settings, count);
-                       });
+    gpu::dispatch_in_chunks(device, STAGE, {"inspect/find_cells.comp", 64, {}, {}},
+                            {{"tree_nodes", tree.nodes},
+                             {"tree_positions", tree.positions},
+                             {"tree_normals", tree.normals},
+                             {"normal_bounds", tree.normal_boxes},
+                             {"surface_points", view.points},
+                             {"surface_normals", view.normals},
+                             {"walks", walks}},
+                            settings, view.pixel_count(), 4096, progress);
 }
 
 } // namespace
@@ -49,7 +43,6 @@ void walk_on(gpu::Device& device, const KdTree& tree, const SurfaceView& view, c
 CellImage find_voronoi_cells(gpu::Device& device, const PhotonMap& photons, const KdTree& tree, const SurfaceView& view,
                              const VoronoiSettings& settings, const Progress& progress) {
     CellImage image = make_cell_image(view);
-    image.is_border.assign(image.ids.size(), 0);
     if (tree.count == 0)
         return image;
     shared::CellSettings push = make_cell_settings(photons, tree, view);

@@ -34,13 +34,6 @@ inline std::vector<inspect::Axis> make_axes(const std::vector<inspect::Column>& 
     return axes;
 }
 
-inline inspect::Selection list_ids(std::size_t count) {
-    inspect::Selection ids(count);
-    for (std::size_t i = 0; i < count; ++i)
-        ids[i] = static_cast<std::uint32_t>(i);
-    return ids;
-}
-
 // Height of a curve above x, which lies in the gap.
 inline float find_height(const inspect::Curves& curves, std::size_t curve, std::size_t gap, float x) {
     const auto [from, from_handle, to_handle, to] = find_bezier(curves, curve, gap);

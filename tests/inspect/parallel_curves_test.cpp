@@ -27,7 +27,7 @@ struct Plot {
     explicit Plot(float tension = 1, bool has_closed = false) {
         axes[2].is_closed = axes[3].is_closed = has_closed;
         layout = place_axes(axes, 700, 300);
-        curves = build_curves(columns, axes, layout, list_ids(COUNT), tension);
+        curves = build_curves(columns, axes, layout, inspect::select_all(COUNT), tension);
     }
     glm::vec2 point(std::size_t i, std::size_t axis) const { return curves.points[i * axes.size() + axis]; }
 };
@@ -102,7 +102,7 @@ TEST(ParallelCurves, break_where_a_value_is_missing) {
     columns[2].values[1] = NAN;
     columns[0].values[2] = INFINITY;
     const std::vector<Axis> axes = make_axes(columns);
-    const Curves curves = build_curves(columns, axes, place_axes(axes, 700, 300), list_ids(3));
+    const Curves curves = build_curves(columns, axes, place_axes(axes, 700, 300), inspect::select_all(3));
     EXPECT_EQ(curves.broken_count, 2u);
     std::vector<bool> has_curve;
     for (glm::vec2 tangent : curves.tangents)
@@ -124,7 +124,7 @@ TEST(ParallelCurves, many_are_the_same_as_few) {
     const std::vector<Column> columns = make_columns(4, many);
     const std::vector<Axis> axes = make_axes(columns);
     const AxisLayout layout = place_axes(axes, 700, 300);
-    const Curves all = build_curves(columns, axes, layout, list_ids(many));
+    const Curves all = build_curves(columns, axes, layout, inspect::select_all(many));
     const Curves one = build_curves(columns, axes, layout, {17321});
     for (std::size_t gap = 0; gap < 3; ++gap)
         EXPECT_EQ(all.tangents[17321 * 3 + gap], one.tangents[gap]);

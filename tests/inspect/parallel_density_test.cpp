@@ -28,7 +28,7 @@ std::vector<float> draw_values(std::size_t count, float middle, float spread, st
 }
 
 AxisDensity estimate(const Column& column, const Axis& axis) {
-    return estimate_density(column, axis, list_ids(column.values.size()));
+    return estimate_density(column, axis, inspect::select_all(column.values.size()));
 }
 
 // Every kernel at every place, and its copies a turn to either side.

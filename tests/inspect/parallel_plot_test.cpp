@@ -38,7 +38,7 @@ Plot make_plot(std::size_t count, std::uint32_t width = 300, std::uint32_t heigh
     plot.axes[1].is_closed = plot.axes[2].is_closed = true;
     plot.axes[0].high = 0.8f; // some curves leave the axis, others the image
     plot.layout = place_axes(plot.axes, width, height, {20, 20, 10, 10});
-    plot.curves = build_curves(plot.columns, plot.axes, plot.layout, list_ids(count));
+    plot.curves = build_curves(plot.columns, plot.axes, plot.layout, inspect::select_all(count));
     return plot;
 }
 
@@ -97,7 +97,7 @@ TEST(ParallelPlot, counts_are_the_naive_ones) {
 
 TEST(ParallelPlot, counts_of_straight_lines_are_the_naive_ones) {
     Plot plot = make_plot(500);
-    plot.curves = build_curves(plot.columns, plot.axes, plot.layout, list_ids(500), 0);
+    plot.curves = build_curves(plot.columns, plot.axes, plot.layout, inspect::select_all(500), 0);
     EXPECT_EQ(count_on_device(plot), count_naively(plot));
 }
 
@@ -120,7 +120,7 @@ TEST(ParallelPlot, more_curves_than_a_part_holds_do_not_overflow) {
     Plot plot{{make_column(std::vector<float>(count, 0.5f)), make_column(std::vector<float>(count, 0.5f))}, {}, {}, {}};
     plot.axes = make_axes(plot.columns);
     plot.layout = place_axes(plot.axes, 64, 40, {10, 10, 5, 5});
-    plot.curves = build_curves(plot.columns, plot.axes, plot.layout, list_ids(count));
+    plot.curves = build_curves(plot.columns, plot.axes, plot.layout, inspect::select_all(count));
     const Counts counts = count_on_device(plot, 1, {1u << 20, 1});
     EXPECT_EQ(std::count(counts.begin(), counts.end(), count), 44) << "one row of the gap's columns";
     EXPECT_EQ(std::count(counts.begin(), counts.end(), 0u), 64 * 40 - 44);
@@ -169,7 +169,7 @@ TEST(ParallelPlot, without_curves_or_gaps_the_background_stays) {
     Plot single{make_columns(1, 50), {}, {}, {}};
     single.axes = make_axes(single.columns);
     single.layout = place_axes(single.axes, 300, 120);
-    single.curves = build_curves(single.columns, single.axes, single.layout, list_ids(50));
+    single.curves = build_curves(single.columns, single.axes, single.layout, inspect::select_all(50));
     for (const Plot& plot : {make_plot(0), single})
         for (std::uint32_t most : {2000u, 0u}) {
             CurveStyle asked = style;
@@ -265,7 +265,7 @@ TEST(ParallelPlot, curves_that_cover_whole_columns_are_all_drawn) {
     Plot plot{{make_column(up), make_column(down), make_column(up)}, {}, {}, {}};
     plot.axes = make_axes(plot.columns);
     plot.layout = place_axes(plot.axes, 24, 1000, {5, 5, 5, 5});
-    plot.curves = build_curves(plot.columns, plot.axes, plot.layout, list_ids(COUNT));
+    plot.curves = build_curves(plot.columns, plot.axes, plot.layout, inspect::select_all(COUNT));
     const std::vector<glm::vec3> colors(COUNT, {0.2f, 0.3f, 0.4f});
     const CurveStyle style{.opacity = 0.01f};
     const auto pixels = read_pixels(draw_curves(get_device(), plot.layout, {}, plot.curves, colors, style));
@@ -284,7 +284,7 @@ TEST(ParallelPlot, density_is_colored_on_a_logarithmic_scale_over_the_context) {
     const Counts selected = count_naively(plot);
     Plot other = make_plot(200);
     other.columns = make_columns(4, 200, 9);
-    other.curves = build_curves(other.columns, other.axes, other.layout, list_ids(200));
+    other.curves = build_curves(other.columns, other.axes, other.layout, inspect::select_all(200));
     const Counts context = count_naively(other);
     const CurveStyle style{.background = {1, 1, 1, 1}, .context_color = {0, 0.5f, 0}, .most_curves = 0};
     const std::vector<std::uint8_t> pixels = draw(plot, style, other.curves);
@@ -338,7 +338,7 @@ TEST(ParallelPlot, equal_values_are_one_line) {
               {}};
     plot.axes = make_axes(plot.columns);
     plot.layout = place_axes(plot.axes, 100, 60, {10, 10, 10, 10});
-    plot.curves = build_curves(plot.columns, plot.axes, plot.layout, list_ids(2500));
+    plot.curves = build_curves(plot.columns, plot.axes, plot.layout, inspect::select_all(2500));
     const Counts counts = count_on_device(plot);
     EXPECT_EQ(counts, count_naively(plot));
     for (std::uint32_t count : counts)

@@ -8,7 +8,6 @@
 #include "core/error.h"
 #include "inspect/error_map.h"
 #include "inspect/histogram.h"
-#include "inspect/lasso.h"
 #include "inspect/photon_colors.h"
 #include "inspect/scatter.h"
 #include "inspect/spread.h"

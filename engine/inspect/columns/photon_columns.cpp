@@ -2,12 +2,11 @@
 // Columns every map has (places, normals, flux, numbers), and its parameters.
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <limits>
 #include <set>
 
 #include "inspect/columns/column_source.h"
-#include "inspect/luminance.h"
+#include "inspect/photon_colors.h"
 #include "script/interpret/script_columns.h"
 #include "shared/trace.h"
 
