@@ -10,8 +10,8 @@
 
 namespace photonloupe::script {
 
-// Every predefined call by name. getNumVertices is a second name of getNumPathVertices, …Color… of …Colour…: one id
-// each.
+// Predefined calls that some stage tells apart. getNumVertices is a second name of getNumPathVertices, …Color… of
+// …Colour…: one id each.
 enum class BuiltinId : std::uint8_t {
     get_num_photons,
     get_photon_position,
@@ -24,7 +24,6 @@ enum class BuiltinId : std::uint8_t {
     get_path_normal,
     get_path_interaction,
     get_path_object,
-    get_path_scatter,
     get_knn,
     get_parameter_knn,
     get_constrained_knn,
@@ -32,7 +31,6 @@ enum class BuiltinId : std::uint8_t {
     declare_photon_parameter,
     set_photon_parameter,
     set_photon_colour_encoding,
-    hue,
     reset_pca_2d,
     push_pca_2d,
     decompose_pca_2d,
@@ -44,35 +42,24 @@ enum class BuiltinId : std::uint8_t {
     get_pca_mean,
     histogram,
     print,
-    abs,
-    sign,
     int_,
     floor,
     ceil,
     round,
-    fract,
     mod,
     min,
     max,
     clamp,
-    mix,
-    step,
-    smoothstep,
-    sqrt,
     pow,
-    exp,
-    log,
-    sin,
-    cos,
-    tan,
-    asin,
-    acos,
-    atan,
-    atan2,
     random,
-    magnitude,
     dot,
+    other, // every further one
 };
+
+// PCA of points in the plane.
+constexpr bool is_planar(BuiltinId id) {
+    return id == BuiltinId::reset_pca_2d || id == BuiltinId::push_pca_2d || id == BuiltinId::decompose_pca_2d;
+}
 
 // What a call needs or does, beyond its value.
 enum class Effect : std::uint8_t {

@@ -2,8 +2,6 @@
 // The language's stages in the order they run.
 #include "script/compile_script.h"
 
-#include <algorithm>
-
 #include "script/check/check_script.h"
 
 namespace photonloupe::script {

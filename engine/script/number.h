@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 namespace photonloupe::script {
 
@@ -12,16 +13,14 @@ union Number {
     std::int32_t integer;
 };
 
+inline constexpr float NOT_A_NUMBER = std::numeric_limits<float>::quiet_NaN();
+
 inline Number make_real(float value) {
-    Number number;
-    number.real = value;
-    return number;
+    return {.real = value};
 }
 
 inline Number make_integer(std::int32_t value) {
-    Number number;
-    number.integer = value;
-    return number;
+    return {.integer = value};
 }
 
 } // namespace photonloupe::script

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "script/builtins.h"
 #include "script/check/evaluate_constant.h"
 #include "script/check/find_interval.h"
 

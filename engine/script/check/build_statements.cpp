@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Builds statements: blocks with their scopes, loops, declarations, exposed variables.
-#include <cmath>
 
 #include "script/check/builder_depth.h"
 #include "script/check/predefined_names.h"

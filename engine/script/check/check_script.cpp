@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "script/builtins.h"
 #include "script/check/bound_loops.h"
 #include "script/check/check_assignment.h"
 #include "script/check/check_values.h"

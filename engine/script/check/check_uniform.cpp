@@ -6,7 +6,6 @@
 #include "script/builtins.h"
 #include "script/check/assignments.h"
 #include "script/check/check_values.h"
-#include "script/check/evaluate_constant.h"
 #include "script/check/variable_set.h"
 #include "script/check/walk_calls.h"
 #include "script/read/diagnostic_codes.h"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "photons/limits.h"
+#include "photons/search_space.h"
 #include "script/builtins.h"
 #include "script/check/evaluate_constant.h"
 #include "script/check/format_number.h"

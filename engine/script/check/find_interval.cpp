@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "photons/limits.h"
+#include "photons/search_space.h"
 #include "script/builtins.h"
 #include "script/check/evaluate_constant.h"
 

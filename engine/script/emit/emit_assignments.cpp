@@ -4,26 +4,6 @@
 #include "script/emit/glsl_numbers.h"
 
 namespace photonloupe::script {
-namespace {
-
-const char* find_sign(Operator operation) {
-    switch (operation) {
-    case Operator::add:
-        return " + ";
-    case Operator::subtract:
-        return " - ";
-    case Operator::multiply:
-        return " * ";
-    default:
-        return " / ";
-    }
-}
-
-std::string wrap(const Code& code) {
-    return code.binding > Binding::unary ? "(" + code.text + ")" : code.text;
-}
-
-} // namespace
 
 // `before` op value, for compound assignments.
 std::string Emitter::combine_text(const Expression& e, const std::string& before, const Code& value) {
@@ -31,7 +11,7 @@ std::string Emitter::combine_text(const Expression& e, const std::string& before
         return value.text;
     if (e.operation == Operator::modulo)
         return "script_remainder(" + before + ", " + value.text + ", " + find_site(Fault::modulo_by_zero, e.span) + ")";
-    return before + find_sign(e.operation) + wrap(value);
+    return before + find_operator(e.operation).text + wrap(value, Binding::unary);
 }
 
 Code Emitter::assign_scalar(const Expression& e, bool is_used) {
@@ -49,7 +29,7 @@ Code Emitter::assign_scalar(const Expression& e, bool is_used) {
         before = result.text;
     }
     if (is_compound && before == name && e.operation != Operator::modulo) {
-        const std::string sign = find_sign(e.operation);
+        const std::string sign = find_operator(e.operation).text;
         write_line(name + sign.substr(0, 2) + "= " + value.text + ";");
     } else {
         write_line(name + " = " + combine_text(e, before, value) + ";");

@@ -82,8 +82,7 @@ Code Emitter::emit_math(const Expression& e) {
 Code Emitter::emit_pca(const Expression& e) {
     use("pca");
     const BuiltinId id = e.builtin->id;
-    const bool is_plane =
-        id == BuiltinId::reset_pca_2d || id == BuiltinId::push_pca_2d || id == BuiltinId::decompose_pca_2d;
+    const bool is_plane = is_planar(id);
     const std::string moments = is_plane ? "moments_2d" : "moments_3d";
     if (e.builtin->effect != Effect::reads_pca)
         m_block.changes = true;

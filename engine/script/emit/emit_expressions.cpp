@@ -7,16 +7,9 @@
 #include "script/emit/glsl_numbers.h"
 
 namespace photonloupe::script {
-namespace {
-
 std::string wrap(const Code& code, Binding loosest) {
     return code.binding > loosest ? "(" + code.text + ")" : code.text;
 }
-
-struct OperatorText {
-    const char* text;
-    Binding binding;
-};
 
 OperatorText find_operator(Operator operation) {
     switch (operation) {
@@ -42,6 +35,8 @@ OperatorText find_operator(Operator operation) {
         return {" >= ", Binding::order};
     }
 }
+
+namespace {
 
 bool is_comparison(Operator operation) {
     return operation >= Operator::equal && operation <= Operator::greater_equal;
@@ -235,7 +230,7 @@ Code Emitter::emit_lazy(const Expression& e) {
     if (block.text.empty())
         return {wrap(left, Binding::equality) + (is_and ? " && " : " || ") + wrap(right, Binding::equality), binding,
                 left.is_stable && right.is_stable, std::max(left.depth, right.depth) + 1};
-    const Code result = keep_condition({left.text});
+    const Code result = keep("bool", left.text);
     open(std::string("if (") + (is_and ? "" : "!") + result.text + ")");
     append(block);
     write_line(result.text + " = " + right.text + ";");
@@ -253,7 +248,7 @@ Code Emitter::emit_condition(const Expression& e) {
         else if (is_comparison(e.operation))
             code = emit_comparison(e);
         if (!code.text.empty())
-            return code.depth > 16 ? keep_condition(code) : code;
+            return code.depth > 16 ? keep("bool", code.text) : code;
     }
     if (e.kind == Expression::Kind::unary && e.operation == Operator::logical_not) {
         const Code code = emit_condition(e.operands[0]);

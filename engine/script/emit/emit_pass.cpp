@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Puts a pass together: includes, declarations, the loop's body, what surrounds it.
 #include "script/emit/emitter.h"
+#include "script/emit/glsl_numbers.h"
 #include "script/read/diagnostic_codes.h"
 
 namespace photonloupe::script {
 namespace {
 
 // The files of shaders/script/ that passes include where they need them, in order.
-constexpr std::string_view LIBRARIES[] = {
-    "positions", "normals", "powers", "axes", "paths", "path_vertices", "path_normals", "parameters",
-    "colors", "lanes", "pca", "pca_words", "pca_lanes", "neighbors", "histograms", "prints"};
+constexpr std::string_view LIBRARIES[] = {"positions",    "normals",    "powers",     "axes",  "paths", "path_vertices",
+                                          "path_normals", "parameters", "colors",     "lanes", "pca",   "pca_words",
+                                          "pca_lanes",    "neighbors",  "histograms", "prints"};
 
 std::string indent(std::uint32_t depth) {
     return std::string(4 * depth, ' ');
@@ -59,7 +60,7 @@ std::string Emitter::declare_variable(std::uint32_t index, bool is_parameter) co
     const Variable& v = variable(index);
     const std::string start = m_function_variables.contains(index) ? "    " : "";
     std::string text;
-    const std::string type = v.type == Type::integer ? "int" : v.type == Type::list ? "ivec2" : "float";
+    const std::string type = name_type(v.type);
     const std::string& name = m_names.at(index);
     if (!is_parameter)
         text = start + type + " " + name + (v.array_size > 0 ? "[" + std::to_string(v.array_size) + "]" : "") +
@@ -105,7 +106,7 @@ std::vector<Emitter::Register> Emitter::list_registers() const {
         if (variable(slots.variable).array_size > 0)
             continue;
         const Type type = variable(slots.variable).type;
-        registers.push_back({type == Type::integer ? "int" : "float", m_names.at(slots.variable), slots.first,
+        registers.push_back({name_type(type), m_names.at(slots.variable), slots.first,
                              type == Type::integer ? "load_integer" : "load_real", "store"});
         if (is_choice(slots.role)) // behind its value
             registers.push_back(

@@ -86,7 +86,8 @@ Code Emitter::emit_path_call(const Expression& e) {
         const Code id = emit_photon(e.operands[0]);
         if (e.operands.size() == 1)
             return Code{"find_path(" + id.text + ")", Binding::primary, id.is_stable, id.depth + 1};
-        return Code{keep_path(id), Binding::primary, true};
+        // In a temporary: of a photon that does not exist nothing else is reported.
+        return keep("uvec2", "find_path(" + id.text + ")");
     };
     if (e.builtin->id == BuiltinId::get_num_path_vertices) {
         const Code path = find_path();
@@ -125,13 +126,6 @@ Code Emitter::emit_path_call(const Expression& e) {
         use("path_normals");
         return finish("read_path_normal" + arguments + ".w");
     }
-}
-
-// Another photon's path, in a temporary. Of a photon that does not exist nothing else is reported.
-std::string Emitter::keep_path(const Code& photon) {
-    const std::string name = "t" + std::to_string(++m_temporaries);
-    write_line("uvec2 " + name + " = find_path(" + photon.text + ");");
-    return name;
 }
 
 // A vertex or axis of a path: not looked at where the photon does not exist.

@@ -123,7 +123,7 @@ void Emitter::emit_branch(const Statement& s) {
 }
 
 std::string Emitter::turn_check(const Statement& s) {
-    return s.is_bounded && s.kind == Statement::Kind::loop ? "take_turn()" : "take_step(" + find_fuel_site(s) + ")";
+    return s.is_bounded && s.kind == Statement::Kind::loop ? "take_turn()" : "take_step(" + find_site({{}, &s}) + ")";
 }
 
 void Emitter::emit_loop(const Statement& s) {
@@ -222,9 +222,6 @@ void Emitter::emit_return(const Statement& s) {
 void Emitter::emit_function(const Function& function, const Expression& call) {
     if (m_function_names.contains(call.function))
         return;
-    const auto name_type = [](Type type) {
-        return type == Type::none ? "void" : type == Type::integer ? "int" : type == Type::list ? "ivec2" : "float";
-    };
     std::string parameters;
     for (const std::uint32_t parameter : function.parameters)
         parameters += (parameters.empty() ? "" : ", ") + std::string(name_type(variable(parameter).type)) + " " +

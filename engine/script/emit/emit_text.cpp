@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "script/emit/emitter.h"
+#include "script/emit/glsl_numbers.h"
 
 namespace photonloupe::script {
 namespace {
@@ -12,10 +13,6 @@ constexpr std::size_t LONGEST_NAME = 40;     // of a script's; glslang takes 1,0
 constexpr std::size_t LONGEST_COMMENT = 100; // of a script's line
 constexpr std::uint32_t DEEPEST = 16;        // operators in one another, before a temporary is made
 constexpr std::size_t LONGEST_TEXT = 300;    // of an expression
-
-const char* name_type(Type type) {
-    return type == Type::integer ? "int" : type == Type::list ? "ivec2" : "precise float";
-}
 
 // A name or a number.
 bool is_name(const std::string& text) {
@@ -62,14 +59,12 @@ void Emitter::append(const Block& block) {
 Code Emitter::keep(Type type, const Code& code) {
     if (code.is_stable && is_name(code.text))
         return code;
-    const std::string name = "t" + std::to_string(++m_temporaries);
-    write_line(std::string(name_type(type)) + " " + name + " = " + code.text + ";");
-    return {name, Binding::primary, true};
+    return keep((type == Type::real ? "precise " : "") + name_type(type), code.text);
 }
 
-Code Emitter::keep_condition(const Code& code) {
+Code Emitter::keep(const std::string& type, const std::string& text) {
     const std::string name = "t" + std::to_string(++m_temporaries);
-    write_line("bool " + name + " = " + code.text + ";");
+    write_line(type + " " + name + " = " + text + ";");
     return {name, Binding::primary, true};
 }
 
@@ -94,26 +89,18 @@ std::string Emitter::make_name(const std::string& prefix, const std::string& nam
     return make_unique(text);
 }
 
-std::string Emitter::find_site(Fault kind, Span span) {
-    std::size_t at = 0;
-    for (; at < m_pass.sites.size(); ++at) {
-        const PassSite& site = m_pass.sites[at];
-        if (!site.loop && site.fault.kind == kind && site.fault.span.begin == span.begin &&
-            site.fault.span.end == span.end)
-            break;
-    }
-    if (at == m_pass.sites.size())
-        m_pass.sites.push_back({{kind, span}});
-    return std::to_string(at) + "u";
-}
-
-std::string Emitter::find_fuel_site(const Statement& loop) {
-    std::size_t at = 0;
-    while (at < m_pass.sites.size() && !(m_pass.sites[at].loop && m_pass.sites[at].loop->span.begin == loop.span.begin))
-        ++at;
-    if (at == m_pass.sites.size())
-        m_pass.sites.push_back({{}, &loop});
-    return std::to_string(at) + "u";
+std::string Emitter::find_site(const PassSite& wanted) {
+    const auto is_wanted = [&](const PassSite& site) {
+        const Span span = site.loop ? site.loop->span : site.fault.span;
+        const Span other = wanted.loop ? wanted.loop->span : wanted.fault.span;
+        return !site.loop == !wanted.loop && site.fault.kind == wanted.fault.kind && span.begin == other.begin &&
+               span.end == other.end;
+    };
+    const auto found = std::find_if(m_pass.sites.begin(), m_pass.sites.end(), is_wanted);
+    const std::string number = std::to_string(found - m_pass.sites.begin()) + "u";
+    if (found == m_pass.sites.end())
+        m_pass.sites.push_back(wanted);
+    return number;
 }
 
 void Emitter::use(const std::string& library) {

@@ -6,7 +6,6 @@
 #include <map>
 #include <set>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "script/builtins.h"
@@ -19,6 +18,12 @@ namespace photonloupe::script {
 // How tightly an operator binds, the tightest first.
 enum class Binding : std::uint8_t { primary, unary, product, sum, order, equality, conjunction, disjunction, choice };
 
+struct OperatorText {
+    const char* text;
+    Binding binding;
+};
+OperatorText find_operator(Operator operation);
+
 // An expression's GLSL, without side effects: what has any stands in statements before it.
 struct Code {
     std::string text;
@@ -26,6 +31,7 @@ struct Code {
     bool is_stable = false; // nothing that is evaluated later changes it
     std::uint32_t depth = 1;
 };
+std::string wrap(const Code& code, Binding loosest); // in parentheses where it binds no tighter
 
 // Statements on their way into the text.
 struct Block {
@@ -80,12 +86,12 @@ private:
     }
     void append(const Block& block);
     Code keep(Type type, const Code& code); // in a temporary
-    Code keep_condition(const Code& code);
+    Code keep(const std::string& type, const std::string& text);
     Code keep_shallow(Type type, Code code); // in a temporary where it has grown deep or long
     std::string make_unique(const std::string& wish);
     std::string make_name(const std::string& prefix, const std::string& name);
-    std::string find_site(Fault kind, Span span);
-    std::string find_fuel_site(const Statement& loop);
+    std::string find_site(const PassSite& wanted);
+    std::string find_site(Fault kind, Span span) { return find_site({{kind, span}}); }
     void use(const std::string& library);
 
     // emit_expressions.cpp
@@ -135,7 +141,6 @@ private:
     Code emit_query(const Expression& e);
     Code emit_photon(const Expression& e);
     std::string emit_dimension(const Expression& e);
-    std::string keep_path(const Code& photon);
     Code emit_vertex(const Expression& index, const std::string& path, Fault outside, const std::string& size);
     std::string pick_axis(const std::string& vector, const Expression& axis, const Code& place);
 

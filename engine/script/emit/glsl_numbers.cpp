@@ -34,6 +34,10 @@ std::string write_number(Type type, double value) {
     return type == Type::integer ? write_integer(std::int32_t(value)) : write_real(float(value));
 }
 
+std::string name_type(Type type) {
+    return type == Type::none ? "void" : type == Type::integer ? "int" : type == Type::list ? "ivec2" : "float";
+}
+
 std::string write_nothing(Type type) {
     return type == Type::integer ? "0" : type == Type::list ? "ivec2(0)" : "NAN";
 }

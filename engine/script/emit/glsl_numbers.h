@@ -9,6 +9,7 @@
 namespace photonloupe::script {
 
 std::string write_number(Type type, double value);
+std::string name_type(Type type);
 // What an operation without a value gives: NaN, or 0.
 std::string write_nothing(Type type);
 

@@ -8,15 +8,6 @@
 #include "script/reference_math.h"
 
 namespace photonloupe::script {
-namespace {
-
-constexpr float NOT_A_NUMBER = std::numeric_limits<float>::quiet_NaN();
-
-Number nothing(Type type) {
-    return type == Type::integer ? make_integer(0) : make_real(NOT_A_NUMBER);
-}
-
-} // namespace
 
 void Interpreter::fault(Fault kind, const Expression& site) {
     if (!m_is_replay)
@@ -77,17 +68,17 @@ Number Interpreter::evaluate(const Expression& expression) {
         if (variable.is_set)
             return variable.numbers[0];
         fault(Fault::unset_variable, expression);
-        return nothing(expression.type);
+        return make_nothing(expression.type);
     }
     case Kind::element: {
         const VariableState& variable = m_state.variables[expression.variable];
         const std::size_t place = find_place(expression.operands[0], variable.numbers.size(), Fault::array_index);
-        return place < variable.numbers.size() ? variable.numbers[place] : nothing(expression.type);
+        return place < variable.numbers.size() ? variable.numbers[place] : make_nothing(expression.type);
     }
     case Kind::list_item: {
         const std::vector<std::int32_t>& list = evaluate_list(expression.operands[0]);
         const std::size_t place = find_place(expression.operands[1], list.size(), Fault::list_index);
-        return place < list.size() ? make_integer(list[place]) : nothing(expression.type);
+        return place < list.size() ? make_integer(list[place]) : make_nothing(expression.type);
     }
     case Kind::list_length:
         return make_integer(static_cast<std::int32_t>(evaluate_list(expression.operands[0]).size()));
@@ -112,7 +103,7 @@ Number Interpreter::evaluate(const Expression& expression) {
     case Kind::assignment:
         return assign(expression);
     }
-    return nothing(expression.type);
+    return make_nothing(expression.type);
 }
 
 Number Interpreter::evaluate_binary(const Expression& expression) {
@@ -150,11 +141,11 @@ Number Interpreter::assign(const Expression& expression) {
     if (operand.type == Type::integer && variable.type == Type::real)
         value = make_real(static_cast<float>(value.integer));
     if (place == count)
-        return nothing(variable.type); // the write is dropped
+        return make_nothing(variable.type); // the write is dropped
     const bool is_compound = expression.operation != Operator::none;
     if (is_compound && !is_element && !state.is_set)
         fault(Fault::unset_variable, expression);
-    const Number before = is_element || state.is_set ? state.numbers[place] : nothing(variable.type);
+    const Number before = is_element || state.is_set ? state.numbers[place] : make_nothing(variable.type);
     if (is_compound)
         value = compute(expression.operation, variable.type, before, value, expression);
     if (m_is_reduced[expression.variable]) {
@@ -192,7 +183,7 @@ Number Interpreter::call_function(const Expression& expression) {
         return m_given;
     if (flow == Flow::on && function.result != Type::none)
         fault(Fault::no_value, expression);
-    return nothing(expression.type);
+    return make_nothing(expression.type);
 }
 
 } // namespace photonloupe::script

@@ -55,13 +55,8 @@ Interpreter::Interpreter(const Program& program, const Plan& plan, HostPhotons& 
         state.numbers.resize(std::max<std::size_t>(variable.array_size, 1), Number{.integer = 0});
     }
     for (std::size_t i = 0; i < std::size(PREDEFINED_VALUES); ++i) {
-        VariableState& state = m_state.variables[i];
-        const double value = PREDEFINED_VALUES[i];
-        if (program.variables[i].type == Type::integer)
-            state.numbers[0].integer = static_cast<std::int32_t>(value);
-        else
-            state.numbers[0].real = static_cast<float>(value);
-        state.is_set = true;
+        m_state.variables[i].numbers[0] = make_number(program.variables[i].type, PREDEFINED_VALUES[i]);
+        m_state.variables[i].is_set = true;
     }
     for (const auto& [name, value] : settings.values)
         check_value(program, name, value);
@@ -92,10 +87,7 @@ void Interpreter::expose(std::uint32_t index) {
     const Variable& variable = m_program.variables[index];
     VariableState& state = m_state.variables[index];
     if (const auto given = m_settings.values.find(variable.name); given != m_settings.values.end()) {
-        if (variable.type == Type::integer)
-            state.numbers[0].integer = static_cast<std::int32_t>(given->second);
-        else
-            state.numbers[0].real = static_cast<float>(given->second);
+        state.numbers[0] = make_number(variable.type, given->second);
         state.is_set = true;
     }
     m_exposed[index] = state.numbers[0];
@@ -106,9 +98,8 @@ Number Interpreter::exposed_value(std::uint32_t index) const {
         return met->second;
     const Variable& variable = m_program.variables[index];
     const auto given = m_settings.values.find(variable.name);
-    const double value = given != m_settings.values.end() ? given->second : variable.default_value.value_or(0);
-    return variable.type == Type::integer ? make_integer(static_cast<std::int32_t>(value))
-                                          : make_real(static_cast<float>(value));
+    return make_number(variable.type,
+                       given != m_settings.values.end() ? given->second : variable.default_value.value_or(0));
 }
 
 void Interpreter::spend_fuel(const Statement& statement) {

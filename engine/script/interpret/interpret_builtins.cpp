@@ -12,7 +12,6 @@
 namespace photonloupe::script {
 namespace {
 
-constexpr float NOT_A_NUMBER = std::numeric_limits<float>::quiet_NaN();
 constexpr std::size_t LONGEST_SIGNATURE = 6; // dot of two 3-D vectors
 
 std::string format_number(Type type, Number value) {
@@ -105,8 +104,7 @@ Number Interpreter::call_pure(const Expression& expression) {
 
 void Interpreter::change_pca(const Expression& expression) {
     const BuiltinId id = expression.builtin->id;
-    const bool is_flat = id == BuiltinId::reset_pca_2d || id == BuiltinId::push_pca_2d;
-    Moments& moments = is_flat ? m_state.pca_2d : m_state.pca_3d;
+    Moments& moments = is_planar(id) ? m_state.pca_2d : m_state.pca_3d;
     if (id == BuiltinId::reset_pca_2d || id == BuiltinId::reset_pca_3d) {
         moments = {};
         return;

@@ -9,7 +9,6 @@
 namespace photonloupe::script {
 namespace {
 
-constexpr float NOT_A_NUMBER = std::numeric_limits<float>::quiet_NaN();
 constexpr std::size_t AXES = 3;
 
 } // namespace
@@ -31,8 +30,7 @@ Number Interpreter::read_photon(const Expression& expression) {
 
 Number Interpreter::read_path(const Expression& expression) {
     const BuiltinId id = expression.builtin->id;
-    const bool is_whole = expression.type == Type::integer;
-    const Number nothing = is_whole ? make_integer(0) : make_real(NOT_A_NUMBER);
+    const Number nothing = make_nothing(expression.type);
     const std::size_t photon = find_place(expression.operands[0], m_photons.count, Fault::photon_index);
     m_photons.require(expression.builtin->columns);
     const bool has_photon = photon < m_photons.count;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/progress.h"
-#include "photons/limits.h"
+#include "photons/search_space.h"
 #include "script/interpret/host_photons.h"
 #include "script/interpret/lanes.h"
 #include "script/interpret/run_outputs.h"
@@ -18,6 +18,14 @@
 #include "script/plan/plan.h"
 
 namespace photonloupe::script {
+
+inline Number make_number(Type type, double value) {
+    return type == Type::integer ? make_integer(static_cast<std::int32_t>(value))
+                                 : make_real(static_cast<float>(value));
+}
+inline Number make_nothing(Type type) {
+    return type == Type::integer ? make_integer(0) : make_real(NOT_A_NUMBER);
+}
 
 class Interpreter {
 public:

@@ -78,18 +78,17 @@ private:
         for (const Expression& operand : e.operands)
             visit(operand);
         const FlowNames& names = m_flow.names;
+        const auto moments = names.moments(is_planar(e.builtin->id) ? 2 : 3);
         switch (e.builtin->id) {
         case BuiltinId::reset_pca_2d:
-            return note(Access::write, names.moments(2));
         case BuiltinId::reset_pca_3d:
-            return note(Access::write, names.moments(3));
+            return note(Access::write, moments);
         case BuiltinId::push_pca_2d:
-            return note(Access::read, names.moments(2));
         case BuiltinId::push_pca_3d:
-            return note(Access::read, names.moments(3));
+            return note(Access::read, moments);
         case BuiltinId::decompose_pca_2d:
         case BuiltinId::decompose_pca_3d:
-            note(Access::read, names.moments(e.builtin->id == BuiltinId::decompose_pca_2d ? 2 : 3));
+            note(Access::read, moments);
             return note(Access::write, names.decomposition());
         case BuiltinId::get_pca_eigenvalue:
         case BuiltinId::get_pca_eigenvector:

@@ -51,9 +51,7 @@ private:
     void visit_builtin(const Expression& e) {
         m_found.calls.push_back(&e);
         const auto id = e.builtin->id;
-        const bool is_plane =
-            id == BuiltinId::reset_pca_2d || id == BuiltinId::push_pca_2d || id == BuiltinId::decompose_pca_2d;
-        const std::uint32_t moments = m_names.moments(is_plane ? 2 : 3);
+        const std::uint32_t moments = m_names.moments(is_planar(id) ? 2 : 3);
         switch (e.builtin->effect) {
         case Effect::changes_pca:
             if (id == BuiltinId::push_pca_2d || id == BuiltinId::push_pca_3d)

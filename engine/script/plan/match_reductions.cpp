@@ -2,8 +2,6 @@
 // Recognizes the statements that reduce: sums, least and greatest by call, and choices by `if`.
 #include "script/plan/accesses.h"
 
-#include <algorithm>
-
 #include "script/builtins.h"
 
 namespace photonloupe::script {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rules of what gives names a meaning: declarations, exposed variables, functions.
-#include "script/read/diagnostic_codes.h"
 #include "script/read/parser.h"
 
 namespace photonloupe::script {

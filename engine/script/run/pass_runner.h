@@ -3,8 +3,6 @@
 #pragma once
 
 #include <functional>
-#include <map>
-#include <memory>
 #include <span>
 
 #include "gpu/commands.h"

@@ -3,7 +3,6 @@
 #include "script/run/run_script.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
