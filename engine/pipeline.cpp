@@ -219,7 +219,8 @@ gpu::Buffer Workbench::estimate_irradiance(Photons& photons, std::span<const glm
 
 Image Workbench::render_voronoi(const Scene& scene, Photons& photons, const CameraChoice& looks,
                                 const RenderSettings& settings, const Progress& progress) {
-    const shared::CameraFrame camera = frame_camera(scene, find_camera(scene, looks), settings.width, settings.height);
+    const shared::CameraFrame camera =
+        frame_camera(scene.origin, find_camera(scene, looks), settings.width, settings.height);
     const inspect::SurfaceView view = inspect::see_surfaces(m_device, scene, *find_buffers(scene), camera,
                                                             {settings.width, settings.height}, progress);
     const inspect::CellImage cells =

@@ -82,10 +82,11 @@ Camera find_camera(const Scene& scene, const CameraChoice& choice) {
                      (names.empty() ? "are none, leave the name out" : "are: " + names));
 }
 
-shared::CameraFrame frame_camera(const Scene& scene, const Camera& camera, std::uint32_t width, std::uint32_t height) {
+shared::CameraFrame frame_camera(const std::array<double, 3>& origin, const Camera& camera, std::uint32_t width,
+                                 std::uint32_t height) {
     const double reach_up = std::tan(0.5 * camera.yfov);
     const double reach_right = reach_up * width / height;
-    const glm::vec3 position(to_vector(camera.position) - to_vector(scene.origin));
+    const glm::vec3 position(to_vector(camera.position) - to_vector(origin));
     return {glm::vec4(position, 1.0f), glm::vec4(glm::vec3(to_vector(camera.right) * reach_right), 0.0f),
             glm::vec4(glm::vec3(to_vector(camera.up) * reach_up), 0.0f),
             glm::vec4(glm::vec3(-to_vector(camera.backward)), 0.0f)};

@@ -22,7 +22,9 @@ Camera find_camera(const Scene& scene, const CameraChoice& choice);
 Camera aim_camera(const std::array<double, 3>& position, const std::array<double, 3>& target,
                   const std::array<double, 3>& up, double yfov);
 
-// The vertical field of view is kept whatever the image's aspect.
-shared::CameraFrame frame_camera(const Scene& scene, const Camera& camera, std::uint32_t width, std::uint32_t height);
+// The vertical field of view is kept whatever the image's aspect; `origin` is the world place of the kernels' (0, 0,
+// 0).
+shared::CameraFrame frame_camera(const std::array<double, 3>& origin, const Camera& camera, std::uint32_t width,
+                                 std::uint32_t height);
 
 } // namespace photonloupe

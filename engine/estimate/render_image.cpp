@@ -86,29 +86,25 @@ struct Renderer {
 };
 
 void Renderer::trace_eye(const FilmScratch& scratch) {
-    gpu::Commands commands(device, "trace eye paths");
-    commands.dispatch(name_eye_kernel(scene),
-                      {{"geometry", buffers.geometry},
-                       {"shading_normals", buffers.normals},
-                       {"materials", buffers.materials},
-                       {"hit_point", scratch.hit_point},
-                       {"hit_normal", scratch.hit_normal},
-                       {"hit_weight", scratch.hit_weight},
-                       {"eye_emission", scratch.eye_emission}},
-                      eye, eye.sample_count);
-    commands.run();
+    gpu::dispatch(device, "trace eye paths", name_eye_kernel(scene),
+                  {{"geometry", buffers.geometry},
+                   {"shading_normals", buffers.normals},
+                   {"materials", buffers.materials},
+                   {"hit_point", scratch.hit_point},
+                   {"hit_normal", scratch.hit_normal},
+                   {"hit_weight", scratch.hit_weight},
+                   {"eye_emission", scratch.eye_emission}},
+                  eye, eye.sample_count);
 }
 
 void Renderer::light_direct(const FilmScratch& scratch) {
-    gpu::Commands commands(device, "light directly");
-    commands.dispatch(name_light_kernel(),
-                      {{"geometry", buffers.geometry},
-                       {"lights", buffers.lights},
-                       {"hit_point", scratch.hit_point},
-                       {"hit_normal", scratch.hit_normal},
-                       {"direct_irradiance", scratch.direct_irradiance}},
-                      film_push, std::uint64_t{film_push.sample_count} * film_push.slot_count);
-    commands.run();
+    gpu::dispatch(device, "light directly", name_light_kernel(),
+                  {{"geometry", buffers.geometry},
+                   {"lights", buffers.lights},
+                   {"hit_point", scratch.hit_point},
+                   {"hit_normal", scratch.hit_normal},
+                   {"direct_irradiance", scratch.direct_irradiance}},
+                  film_push, std::uint64_t{film_push.sample_count} * film_push.slot_count);
 }
 
 gpu::Buffer Renderer::gather(const FilmScratch& scratch, const gpu::Buffer& power, const Progress& progress) {
@@ -120,22 +116,18 @@ gpu::Buffer Renderer::gather(const FilmScratch& scratch, const gpu::Buffer& powe
 
 void Renderer::color(const FilmScratch& scratch, const gpu::Buffer& irradiance, const Progress& progress) {
     const gpu::Buffer sums = gather(scratch, *map->photons.colors, progress);
-    gpu::Commands commands(device, "color irradiance");
-    commands.dispatch(name_color_kernel(), {{"color_sums", sums}, {"irradiance", irradiance}}, film_push,
-                      std::uint64_t{film_push.sample_count} * film_push.slot_count);
-    commands.run();
+    gpu::dispatch(device, "color irradiance", name_color_kernel(), {{"color_sums", sums}, {"irradiance", irradiance}},
+                  film_push, std::uint64_t{film_push.sample_count} * film_push.slot_count);
 }
 
 void Renderer::accumulate(const FilmScratch& scratch, const gpu::Buffer& irradiance) {
-    gpu::Commands commands(device, "accumulate film");
-    commands.dispatch(name_film_kernel(),
-                      {{"hit_weight", scratch.hit_weight},
-                       {"direct_irradiance", scratch.direct_irradiance},
-                       {"map_irradiance", irradiance},
-                       {"eye_emission", scratch.eye_emission},
-                       {"film", film}},
-                      film_push, film_push.pixel_count);
-    commands.run();
+    gpu::dispatch(device, "accumulate film", name_film_kernel(),
+                  {{"hit_weight", scratch.hit_weight},
+                   {"direct_irradiance", scratch.direct_irradiance},
+                   {"map_irradiance", irradiance},
+                   {"eye_emission", scratch.eye_emission},
+                   {"film", film}},
+                  film_push, film_push.pixel_count);
 }
 
 void Renderer::render_chunk(const FilmScratch& scratch, const Progress& progress) {
@@ -229,7 +221,8 @@ std::vector<gpu::KernelSource> list_render_kernels(const Scene& scene, Store sto
 Image render_image(gpu::Device& device, const Scene& scene, const SceneBuffers& buffers, const RenderedMap* map,
                    const CameraChoice& looks, const RenderSettings& settings, const Progress& progress) {
     require_request(settings, map);
-    const shared::CameraFrame camera = frame_camera(scene, find_camera(scene, looks), settings.width, settings.height);
+    const shared::CameraFrame camera =
+        frame_camera(scene.origin, find_camera(scene, looks), settings.width, settings.height);
     if (settings.mode == RenderMode::photons)
         return plot_photons(device, buffers, map->photons, camera, settings.width, settings.height, progress);
     Renderer renderer{device, scene, buffers, map, settings};

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "photons/limits.h"
+#include "photons/search_space.h"
 #include "shared/photons.h"
 #include "trace/settings.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turns the orbit into a pose, and a pose into what kernels take.
+// Turns the orbit into a pose; projects and aims.
 #include "studio/camera.h"
 
 #include <algorithm>
@@ -36,20 +36,6 @@ CameraPose find_pose(const CameraState& camera) {
     pose.backward = to_array(backward);
     pose.yfov = camera.yfov;
     return pose;
-}
-
-shared::CameraFrame frame_view(const CameraPose& pose, const std::array<double, 3>& origin, std::uint32_t width,
-                               std::uint32_t height) {
-    const double reach = std::tan(0.5 * pose.yfov);
-    const double aspect = static_cast<double>(width) / static_cast<double>(height);
-    shared::CameraFrame frame{};
-    for (int i = 0; i < 3; ++i) {
-        frame.position[i] = static_cast<float>(pose.position[i] - origin[i]);
-        frame.right[i] = static_cast<float>(pose.right[i] * reach * aspect);
-        frame.up[i] = static_cast<float>(pose.up[i] * reach);
-        frame.forward[i] = static_cast<float>(-pose.backward[i]);
-    }
-    return frame;
 }
 
 glm::vec3 project(const shared::CameraFrame& frame, glm::vec3 point, std::uint32_t width, std::uint32_t height) {

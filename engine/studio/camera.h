@@ -5,24 +5,17 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "scene/scene.h"
-#include "shared/render.h"
+#include "estimate/camera_frame.h"
 #include "studio/state.h"
 
 namespace photonloupe::studio {
 
 // Where the camera stands, as renderers take it.
-struct CameraPose {
-    std::array<double, 3> position{}, target{};
-    std::array<double, 3> right{}, up{}, backward{}; // orthonormal
-    double yfov = 0.7;
+struct CameraPose : Camera {
+    std::array<double, 3> target{};
 };
 
 CameraPose find_pose(const CameraState& camera);
-
-// For kernels; `origin` is the world place of their (0, 0, 0).
-shared::CameraFrame frame_view(const CameraPose& pose, const std::array<double, 3>& origin, std::uint32_t width,
-                               std::uint32_t height);
 
 // Pixels from the image's top left corner, and the depth along the view; behind the camera: depth ≤ 0.
 glm::vec3 project(const shared::CameraFrame& frame, glm::vec3 point, std::uint32_t width, std::uint32_t height);

@@ -2,7 +2,6 @@
 // The table of commands, and the keys that run them.
 #include "studio/commands.h"
 
-#include <algorithm>
 #include <cctype>
 
 #include <imgui.h>
@@ -41,7 +40,7 @@ const Command COMMANDS[] = {
     {"loupe.space", "q", "Loupe: next query space", false, change_space},
     {"loupe.paths", "t", "Loupe: show light paths", false, toggle_paths},
     {"plot.reset", "", "Parallel coordinates: the first axes again", false, reset_axes},
-    {"plot.clear_brushes", "", "Parallel coordinates: no brushes", false, clear_brushes},
+    {"plot.clear_brushes", "", "Parallel coordinates: no brushes", false, clear_selection},
     {"selection.clear", "escape", "Select nothing", false, clear_selection},
     {"relax.measure", "", "Relaxation: measure the constraint alone", false, measure_constraint_command},
     {"relax.step", "n", "Relaxation: one step", false, step_relaxation},
@@ -50,11 +49,7 @@ const Command COMMANDS[] = {
     {"help.keys", "?", "List every key", false, toggle_keys},
 };
 
-struct NamedKey {
-    const char* name;
-    ImGuiKey key;
-};
-constexpr NamedKey NAMED_KEYS[] = {
+constexpr std::pair<std::string_view, ImGuiKey> NAMED_KEYS[] = {
     {"enter", ImGuiKey_Enter},    {"tab", ImGuiKey_Tab},           {"escape", ImGuiKey_Escape},
     {"space", ImGuiKey_Space},    {"up", ImGuiKey_UpArrow},        {"down", ImGuiKey_DownArrow},
     {"left", ImGuiKey_LeftArrow}, {"right", ImGuiKey_RightArrow},  {"home", ImGuiKey_Home},
@@ -69,9 +64,9 @@ int parse_key(std::string_view name) {
         return ImGuiKey_A + (std::tolower(static_cast<unsigned char>(name[0])) - 'a');
     if (name.size() == 1 && std::isdigit(static_cast<unsigned char>(name[0])))
         return ImGuiKey_0 + (name[0] - '0');
-    for (const NamedKey& named : NAMED_KEYS)
-        if (name == named.name)
-            return named.key;
+    for (const auto& [known, key] : NAMED_KEYS)
+        if (name == known)
+            return key;
     return ImGuiKey_None;
 }
 

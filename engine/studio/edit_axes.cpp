@@ -22,8 +22,7 @@ inspect::Axis make_plot_axis(const AxisState& state, const std::vector<inspect::
 }
 
 void fit_axis(Workspace& workspace, AxisState& axis) {
-    std::string missing;
-    const inspect::Column* column = workspace.seek_column(axis.name, missing);
+    const inspect::Column* column = workspace.seek_column(axis.name);
     const Ids ids = workspace.find_source(workspace.state.parallel.source);
     if (!column || !ids)
         return;
@@ -43,8 +42,7 @@ Ids find_brushed(Workspace& workspace) {
     std::vector<inspect::Column> columns;
     std::vector<inspect::Axis> axes;
     for (const AxisState& axis : workspace.state.parallel.axes) {
-        std::string missing;
-        const inspect::Column* column = axis.brushes.empty() ? nullptr : workspace.seek_column(axis.name, missing);
+        const inspect::Column* column = axis.brushes.empty() ? nullptr : workspace.seek_column(axis.name);
         if (!column)
             continue;
         columns.push_back(*column);

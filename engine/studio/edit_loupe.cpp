@@ -11,9 +11,12 @@ namespace {
 constexpr std::size_t MOST_PINS = 8;
 constexpr double GROWTH = 1.25;
 
-void change_loupe(Workspace& workspace, const char* name, const std::function<void(LoupeState&)>& make) {
-    workspace.change(name, [&](StudioState& state) { make(state.loupe); });
-    ++workspace.loupe_version;
+void toggle_lock(Workspace& workspace, const char* lock) {
+    change_loupe(workspace, "lock range", [&](LoupeState& loupe) {
+        loupe.lock = loupe.lock == lock ? "none" : lock;
+        if (loupe.lock == lock)
+            loupe.space = SearchSpace::constrained;
+    });
 }
 
 // Steps made with other choices are those of another relaxation.
@@ -53,21 +56,12 @@ void unpin_photons(Workspace& workspace) {
 void lock_to_pin(Workspace& workspace) {
     if (workspace.state.loupe.lock != "pin" && workspace.state.loupe.pins.empty())
         pin_photon(workspace);
-    if (workspace.state.loupe.pins.empty())
-        return;
-    change_loupe(workspace, "lock range", [](LoupeState& loupe) {
-        loupe.lock = loupe.lock == "pin" ? "none" : "pin";
-        if (loupe.lock == "pin")
-            loupe.space = SearchSpace::constrained;
-    });
+    if (!workspace.state.loupe.pins.empty())
+        toggle_lock(workspace, "pin");
 }
 
 void lock_to_brushes(Workspace& workspace) {
-    change_loupe(workspace, "lock range", [](LoupeState& loupe) {
-        loupe.lock = loupe.lock == "brushes" ? "none" : "brushes";
-        if (loupe.lock == "brushes")
-            loupe.space = SearchSpace::constrained;
-    });
+    toggle_lock(workspace, "brushes");
 }
 
 void grow_loupe(Workspace& workspace) {

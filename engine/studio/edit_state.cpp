@@ -35,28 +35,23 @@ std::vector<AxisState> choose_axes(Workspace& workspace) {
     return axes;
 }
 
-void after_jump(Workspace& workspace, const char* what, const std::string& name) {
+void step_history(Workspace& workspace, const char* verb, const std::string& name,
+                  bool (History::*step)(StudioState& state)) {
+    if (!(workspace.history.*step)(workspace.state))
+        return workspace.say(std::string("there is nothing to ") + verb);
     ++workspace.selection_version;
     ++workspace.loupe_version;
-    workspace.say(std::string(what) + ": " + name);
+    workspace.say(std::string(verb) + "ne: " + name);
 }
 
 } // namespace
 
 void undo(Workspace& workspace) {
-    const std::string name = workspace.history.undo_name();
-    if (workspace.history.undo(workspace.state))
-        after_jump(workspace, "undone", name);
-    else
-        workspace.say("there is nothing to undo");
+    step_history(workspace, "undo", workspace.history.undo_name(), &History::undo);
 }
 
 void redo(Workspace& workspace) {
-    const std::string name = workspace.history.redo_name();
-    if (workspace.history.redo(workspace.state))
-        after_jump(workspace, "redone", name);
-    else
-        workspace.say("there is nothing to redo");
+    step_history(workspace, "redo", workspace.history.redo_name(), &History::redo);
 }
 
 void copy_python(Workspace& workspace) {
@@ -164,15 +159,15 @@ void clear_selection(Workspace& workspace) {
         workspace.shows_keys = false; // Escape closes what is open first
         return;
     }
-    workspace.change("select nothing", [&](StudioState& state) {
-        for (AxisState& axis : state.parallel.axes)
-            axis.brushes.clear();
-        workspace.select(nullptr);
-    });
+    select_instead(workspace, "select nothing", nullptr);
 }
 
-void clear_brushes(Workspace& workspace) {
-    clear_selection(workspace);
+void select_instead(Workspace& workspace, const char* name, Ids ids) {
+    workspace.change(name, [&](StudioState& state) {
+        for (AxisState& axis : state.parallel.axes)
+            axis.brushes.clear();
+        workspace.select(std::move(ids));
+    });
 }
 
 void reset_axes(Workspace& workspace) {
@@ -191,8 +186,7 @@ StudioState complete_state(Workspace& workspace) {
     StudioState state = workspace.state;
     state.parallel.axes = list_axes(workspace);
     for (AxisState& axis : state.parallel.axes) {
-        std::string missing;
-        const inspect::Column* column = axis.low == axis.high ? workspace.seek_column(axis.name, missing) : nullptr;
+        const inspect::Column* column = axis.low == axis.high ? workspace.seek_column(axis.name) : nullptr;
         if (column) {
             axis.low = column->low;
             axis.high = column->high;

@@ -36,9 +36,17 @@ void shrink_loupe(Workspace& workspace);
 void change_space(Workspace& workspace);
 void toggle_paths(Workspace& workspace);
 
+// A command over the loupe, which looks anew.
+template <class Change>
+void change_loupe(Workspace& workspace, const std::string& name, const Change& make) {
+    workspace.change(name, [&](StudioState& state) { make(state.loupe); });
+    ++workspace.loupe_version;
+}
+
 void reset_axes(Workspace& workspace);
-void clear_brushes(Workspace& workspace);
 void clear_selection(Workspace& workspace);
+// Selects these and clears all brushes.
+void select_instead(Workspace& workspace, const char* name, Ids ids);
 
 void measure_constraint_command(Workspace& workspace);
 void step_relaxation(Workspace& workspace);

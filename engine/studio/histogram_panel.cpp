@@ -9,7 +9,6 @@
 #include <implot.h>
 
 #include "core/error.h"
-#include "studio/theme.h"
 #include "studio/widgets.h"
 
 namespace photonloupe::studio {
@@ -66,7 +65,7 @@ void HistogramPanel::update(Workspace& workspace) {
                 }
         return;
     }
-    const inspect::Column* column = workspace.seek_column(histogram.column, m_missing);
+    const inspect::Column* column = workspace.seek_column(histogram.column, &m_missing);
     if (!column)
         return;
     try {
@@ -98,28 +97,27 @@ void HistogramPanel::count_selected(const Workspace& workspace) {
 }
 
 void HistogramPanel::draw_toolbar(Workspace& workspace) {
-    const HistogramState& histogram = workspace.state.histogram;
-    const auto edit = [&](const char* name, const auto& make) {
-        workspace.change(name, [&](StudioState& state) { make(state.histogram); });
+    HistogramState histogram = workspace.state.histogram;
+    const auto edit = [&](const char* name) {
+        workspace.change(name, [&](StudioState& state) { state.histogram = histogram; });
     };
     ImGui::SetNextItemWidth(140 * workspace.scale);
-    std::string column = histogram.column;
-    if (ui::choose_column(workspace, "Histogram/Column", "##column", column))
-        edit("histogram", [&](HistogramState& state) { state.column = column; });
+    if (ui::choose_column(workspace, "Histogram/Column", "##column", histogram.column))
+        edit("histogram");
     if (workspace.results.script)
         for (const HistogramResult& result : workspace.results.script->histograms) {
             ImGui::SameLine();
-            if (ui::button(workspace, "Histogram/" + result.name, result.name.c_str(), "Counted by the script"))
-                edit("histogram", [&](HistogramState& state) { state.column = SCRIPT_PREFIX + result.name; });
+            if (ui::button(workspace, "Histogram/" + result.name, result.name.c_str(), "Counted by the script")) {
+                histogram.column = SCRIPT_PREFIX + result.name;
+                edit("histogram");
+            }
         }
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(80 * workspace.scale);
-    std::uint32_t bins = histogram.bins;
-    if (ui::slide(workspace, "Histogram/Bins", "bins", bins, 4, 512, true))
-        edit("bins", [&](HistogramState& state) { state.bins = bins; });
+    ui::beside(workspace, 80);
+    if (ui::slide(workspace, "Histogram/Bins", "bins", histogram.bins, 4, 512, true))
+        edit("bins");
     ImGui::SameLine();
     if (ui::toggle(workspace, "Histogram/Cdf", "share below", histogram.shows_cdf))
-        edit("share below", [](HistogramState& state) { state.shows_cdf = !state.shows_cdf; });
+        edit("share below");
 }
 
 void HistogramPanel::draw_plot(Workspace& workspace) {

@@ -20,22 +20,12 @@ void History::record(const std::string& name, const StudioState& state) {
         m_done.pop_front();
 }
 
-bool History::undo(StudioState& state) {
-    if (m_done.empty())
+bool History::step(StudioState& state, std::deque<Entry>& from, std::deque<Entry>& to) {
+    if (from.empty())
         return false;
-    m_undone.push_back({m_done.back().name, std::move(state)});
-    state = std::move(m_done.back().state);
-    m_done.pop_back();
-    m_is_open = false;
-    return true;
-}
-
-bool History::redo(StudioState& state) {
-    if (m_undone.empty())
-        return false;
-    m_done.push_back({m_undone.back().name, std::move(state)});
-    state = std::move(m_undone.back().state);
-    m_undone.pop_back();
+    to.push_back({from.back().name, std::move(state)});
+    state = std::move(from.back().state);
+    from.pop_back();
     m_is_open = false;
     return true;
 }

@@ -17,8 +17,8 @@ public:
     void end_gesture() { m_is_open = false; }
 
     // Exchange the state for the one before, or after; false when there is none.
-    bool undo(StudioState& state);
-    bool redo(StudioState& state);
+    bool undo(StudioState& state) { return step(state, m_done, m_undone); }
+    bool redo(StudioState& state) { return step(state, m_undone, m_done); }
 
     std::string undo_name() const { return m_done.empty() ? "" : m_done.back().name; }
     std::string redo_name() const { return m_undone.empty() ? "" : m_undone.back().name; }
@@ -30,6 +30,8 @@ private:
         std::string name;
         StudioState state;
     };
+    bool step(StudioState& state, std::deque<Entry>& from, std::deque<Entry>& to);
+
     std::deque<Entry> m_done;
     std::deque<Entry> m_undone;
     bool m_is_open = false;

@@ -14,41 +14,31 @@
 #include "studio/widgets.h"
 
 namespace photonloupe::studio {
-namespace {
-
-template <class Change>
-void edit(Workspace& workspace, const char* name, const Change& make) {
-    workspace.change(name, [&](StudioState& state) { make(state.image); });
-}
-
-} // namespace
 
 void ImagePanel::draw_choices(Workspace& workspace) {
-    const ImageState& now = workspace.state.image;
-    ImageState image = now;
+    ImageState image = workspace.state.image;
+    const auto edit = [&](const std::string& name) {
+        workspace.change(name, [&](StudioState& state) { state.image = image; });
+    };
     const float half = 0.5f * ImGui::GetContentRegionAvail().x;
     ImGui::PushItemWidth(0.32f * ImGui::GetContentRegionAvail().x);
     if (ui::slide(workspace, "Image/Exposure", "exposure", image.exposure, -10, 10, "%.2f stops"))
-        edit(workspace, "exposure", [&](ImageState& state) { state.exposure = image.exposure; });
+        edit("exposure");
     ImGui::SameLine(half);
-    const int tone = ui::choose(workspace, "Image/Tone", "tone", now.tone, {"srgb", "filmic"});
-    if (tone >= 0)
-        edit(workspace, "tone", [&](ImageState& state) { state.tone = tone == 0 ? "srgb" : "filmic"; });
+    if (ui::choose(workspace, "Image/Tone", "tone", image.tone, {"srgb", "filmic"}))
+        edit("tone");
     if (ui::slide(workspace, "Image/Overlay", "false color", image.overlay, 0, 1, "%.2f"))
-        edit(workspace, "false color", [&](ImageState& state) { state.overlay = image.overlay; });
+        edit("false color");
     ImGui::SameLine(half);
-    const int shown = ui::choose(workspace, "Image/Shows", "show", now.shows, {"image", "reference", "error"});
-    if (shown >= 0)
-        edit(workspace, "shown image", [&](ImageState& state) {
-            state.shows = shown == 0 ? "image" : shown == 1 ? "reference" : "error";
-        });
+    if (ui::choose(workspace, "Image/Shows", "show", image.shows, {"image", "reference", "error"}))
+        edit("shown image");
     ImGui::PopItemWidth();
     ImageState completed = complete_choices(image, workspace.state.trace);
     if (const std::string changed = ui::edit_settings(workspace, "Image", list_choices(image), list_choices(completed));
         !changed.empty())
-        edit(workspace, ("image " + changed).c_str(), [&](ImageState& state) { state.render = image.render; });
+        edit("image " + changed);
     if (ui::button(workspace, "Image/Compare", "Compare", "Load the reference named on the right (EXR, 640 × 480)"))
-        edit(workspace, "reference", [&](ImageState& state) { state.reference = m_reference; });
+        workspace.change("reference", [&](StudioState& state) { state.image.reference = m_reference; });
     ImGui::SameLine();
     if (ui::button(workspace, "Image/Store", "Store", "Keep this picture as the reference (B of A/B)"))
         workspace.requests.push_back("store_reference");

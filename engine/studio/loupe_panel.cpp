@@ -62,30 +62,21 @@ constexpr const char* GROUPS[] = {"position",      "parameters",  "flux",     "s
                                   "path length",   "eigenvalues", "isotropy", "eigenvector 2", "w_v",
                                   "one-sidedness", "drift",       "radius"};
 
-template <class Change>
-void change_loupe(Workspace& workspace, const char* name, const Change& make) {
-    workspace.change(name, [&](StudioState& state) { make(state.loupe); });
-    ++workspace.loupe_version;
-}
-
 void draw_choices(Workspace& workspace) {
-    const LoupeState& loupe = workspace.state.loupe;
-    inspect::LoupeSettings settings = loupe;
-    if (const std::string changed =
-            ui::edit_settings(workspace, "Loupe", list_settings(settings), list_settings(settings));
-        !changed.empty())
-        change_loupe(workspace, ("loupe " + changed).c_str(),
-                     [&](LoupeState& state) { static_cast<inspect::LoupeSettings&>(state) = settings; });
+    LoupeState loupe = workspace.state.loupe;
+    const auto edit = [&](const std::string& name) {
+        change_loupe(workspace, name, [&](LoupeState& state) { state = loupe; });
+    };
+    const std::vector<Setting> settings = list_settings<inspect::LoupeSettings>(loupe);
+    if (const std::string changed = ui::edit_settings(workspace, "Loupe", settings, settings); !changed.empty())
+        edit("loupe " + changed);
     ImGui::SameLine(0.5f * ImGui::GetContentRegionAvail().x);
     ImGui::BeginDisabled(loupe.space != SearchSpace::constrained);
     ImGui::SetNextItemWidth(0.34f * ImGui::GetContentRegionAvail().x);
-    const int lock = ui::choose(workspace, "Loupe/Lock", "range", loupe.lock, {"none", "pin", "brushes"},
-                                "What the parameter range keeps to while the cursor moves: the photon under it, the "
-                                "last pin, or the brushed intervals");
-    if (lock >= 0)
-        change_loupe(workspace, "lock range", [&](LoupeState& state) {
-            state.lock = lock == 0 ? "none" : lock == 1 ? "pin" : "brushes";
-        });
+    if (ui::choose(workspace, "Loupe/Lock", "range", loupe.lock, {"none", "pin", "brushes"},
+                   "What the parameter range keeps to while the cursor moves: the photon under it, the last pin, or "
+                   "the brushed intervals"))
+        edit("lock range");
     ImGui::EndDisabled();
     if (ui::button(workspace, "Loupe/Pin", "Pin", "Keep the photon at the center (P, or click)"))
         pin_photon(workspace);
@@ -97,20 +88,20 @@ void draw_choices(Workspace& workspace) {
         toggle_paths(workspace);
     ImGui::SameLine();
     if (ui::toggle(workspace, "Loupe/Drift", "drift", loupe.shows_drift, "Ellipses of how far each photon moved"))
-        change_loupe(workspace, "drift", [](LoupeState& state) { state.shows_drift = !state.shows_drift; });
+        edit("drift");
     ImGui::SameLine();
     if (ui::button(workspace, "Loupe/Numbers", "Numbers"))
         ImGui::OpenPopup("numbers");
     if (ImGui::BeginPopup("numbers")) {
         for (const char* group : GROUPS) {
-            const bool is_on = std::find(loupe.numbers.begin(), loupe.numbers.end(), group) != loupe.numbers.end();
-            if (ui::toggle(workspace, std::string("Loupe/Numbers/") + group, group, is_on))
-                change_loupe(workspace, "numbers", [&](LoupeState& state) {
-                    if (is_on)
-                        std::erase(state.numbers, group);
-                    else
-                        state.numbers.push_back(group);
-                });
+            bool is_on = std::find(loupe.numbers.begin(), loupe.numbers.end(), group) != loupe.numbers.end();
+            if (ui::toggle(workspace, std::string("Loupe/Numbers/") + group, group, is_on)) {
+                if (is_on)
+                    loupe.numbers.push_back(group);
+                else
+                    std::erase(loupe.numbers, group);
+                edit("numbers");
+            }
         }
         ImGui::EndPopup();
     }

@@ -44,11 +44,7 @@ void draw_selection_menu(Workspace& workspace) {
     for (const auto& [name, ids] : named) {
         const std::string label = name + " (" + std::to_string(ids ? ids->size() : 0) + ")";
         if (ImGui::Selectable(label.c_str(), ids == workspace.state.selection))
-            workspace.change("choose selection", [&](StudioState& state) {
-                for (AxisState& axis : state.parallel.axes)
-                    axis.brushes.clear();
-                workspace.select(ids);
-            });
+            select_instead(workspace, "choose selection", ids);
         ui::mark(workspace, "Selection/" + name);
     }
     if (ui::button(workspace, "Selection/Clear", "Clear", "Select nothing (Escape)"))

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
-#include <cmath>
-#include <numeric>
 
 #include <imgui.h>
 
@@ -45,12 +43,6 @@ std::string write_key(const Workspace& workspace, std::uint32_t width, std::uint
     return key;
 }
 
-inspect::Selection list_all(std::size_t count) {
-    inspect::Selection all(count);
-    std::iota(all.begin(), all.end(), 0u);
-    return all;
-}
-
 glm::vec3 unpack_color(std::uint32_t packed) {
     return glm::vec3(packed & 255, packed >> 8 & 255, packed >> 16 & 255) / 255.0f;
 }
@@ -86,8 +78,7 @@ void ParallelPanel::find_axes(Workspace& workspace) {
     m_plot.axes.clear();
     const std::vector<AxisState> axes = list_axes(workspace);
     for (std::size_t i = 0; i < axes.size(); ++i) {
-        std::string missing;
-        const inspect::Column* column = workspace.seek_column(axes[i].name, missing);
+        const inspect::Column* column = workspace.seek_column(axes[i].name);
         if (!column)
             continue; // a parameter of another script: the axis waits for it
         m_plot.columns.push_back(*column);
@@ -158,7 +149,7 @@ void ParallelPanel::update(Workspace& workspace, std::uint32_t width, std::uint3
         m_plot.layout = inspect::place_axes(
             m_plot.axes, width, height,
             {56 * workspace.scale, 56 * workspace.scale, 34 * workspace.scale, 30 * workspace.scale});
-        draw_curves(workspace, ids ? *ids : list_all(photons->map.count));
+        draw_curves(workspace, ids ? *ids : inspect::select_all(photons->map.count));
     } catch (const Error& error) {
         m_plot.missing = error.what();
     }
@@ -213,30 +204,33 @@ void ParallelPanel::draw_axis_menu(Workspace& workspace) {
     if (!ImGui::BeginPopup("axis"))
         return;
     const std::size_t at = m_axis < m_plot.places.size() ? m_plot.places[m_axis] : 0;
-    const auto edit = [&](const char* name, const auto& make) {
+    AxisState axis = list_axes(workspace)[at];
+    const auto edit = [&](const char* name) {
         change_axes(workspace, name, [&](std::vector<AxisState>& axes) {
-            make(axes[at]);
-            if (!axes[at].brushes.empty())
+            axes[at] = axis;
+            if (!axis.brushes.empty())
                 workspace.select(find_brushed(workspace));
         });
     };
-    const AxisState axis = list_axes(workspace)[at];
     ImGui::TextDisabled("%s", axis.name.c_str());
     if (ui::toggle(workspace, "Parallel coordinates/Closed", "closed (ellipse)", axis.is_closed))
-        edit("close axis", [](AxisState& state) { state.is_closed = !state.is_closed; });
+        edit("close axis");
     ImGui::BeginDisabled(!axis.is_closed);
-    std::uint32_t periods = axis.periods;
     ImGui::SetNextItemWidth(120 * workspace.scale);
-    if (ui::slide(workspace, "Parallel coordinates/Periods", "periods", periods, 1, 16))
-        edit("periods", [&](AxisState& state) { state.periods = periods; });
+    if (ui::slide(workspace, "Parallel coordinates/Periods", "periods", axis.periods, 1, 16))
+        edit("periods");
     ImGui::EndDisabled();
     if (ui::toggle(workspace, "Parallel coordinates/Flipped", "flipped", axis.is_flipped))
-        edit("flip axis", [](AxisState& state) { state.is_flipped = !state.is_flipped; });
-    if (ui::button(workspace, "Parallel coordinates/Fit", "fit", "To the photons shown"))
-        edit("fit axis", [&](AxisState& state) { fit_axis(workspace, state); });
+        edit("flip axis");
+    if (ui::button(workspace, "Parallel coordinates/Fit", "fit", "To the photons shown")) {
+        fit_axis(workspace, axis);
+        edit("fit axis");
+    }
     ImGui::SameLine();
-    if (ui::button(workspace, "Parallel coordinates/Whole", "whole range"))
-        edit("whole range", [](AxisState& state) { state.low = state.high = 0; });
+    if (ui::button(workspace, "Parallel coordinates/Whole", "whole range")) {
+        axis.low = axis.high = 0;
+        edit("whole range");
+    }
     if (ui::button(workspace, "Parallel coordinates/Remove", "remove")) {
         change_axes(workspace, "remove axis", [&](std::vector<AxisState>& axes) {
             axes.erase(axes.begin() + static_cast<std::ptrdiff_t>(at));
@@ -249,33 +243,25 @@ void ParallelPanel::draw_axis_menu(Workspace& workspace) {
 }
 
 void ParallelPanel::draw_toolbar(Workspace& workspace) {
-    const ParallelState& parallel = workspace.state.parallel;
-    const auto edit = [&](const char* name, const auto& make) {
-        workspace.change(name, [&](StudioState& state) { make(state.parallel); });
+    ParallelState parallel = workspace.state.parallel;
+    const auto edit = [&](const char* name) {
+        workspace.change(name, [&](StudioState& state) { state.parallel = parallel; });
     };
     ImGui::SetNextItemWidth(95 * workspace.scale);
-    const int source = ui::choose(workspace, "Parallel coordinates/Source", "##source", parallel.source,
-                                  {"loupe", "all", "selection"}, "Which photons are plotted");
-    if (source >= 0)
-        edit("plotted photons", [&](ParallelState& state) {
-            state.source = source == 0 ? "loupe" : source == 1 ? "all" : "selection";
-        });
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(120 * workspace.scale);
-    std::string color = parallel.color;
-    if (ui::choose_column(workspace, "Parallel coordinates/Color", "##color", color, "encoding"))
-        edit("curve colors", [&](ParallelState& state) { state.color = color; });
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(80 * workspace.scale);
-    float tension = parallel.tension;
-    if (ui::slide(workspace, "Parallel coordinates/Tension", "##tension", tension, 0, 1, "tension %.2f"))
-        edit("tension", [&](ParallelState& state) { state.tension = tension; });
+    if (ui::choose(workspace, "Parallel coordinates/Source", "##source", parallel.source, {"loupe", "all", "selection"},
+                   "Which photons are plotted"))
+        edit("plotted photons");
+    ui::beside(workspace, 120);
+    if (ui::choose_column(workspace, "Parallel coordinates/Color", "##color", parallel.color, "encoding"))
+        edit("curve colors");
+    ui::beside(workspace, 80);
+    if (ui::slide(workspace, "Parallel coordinates/Tension", "##tension", parallel.tension, 0, 1, "tension %.2f"))
+        edit("tension");
     ImGui::SameLine();
     if (ui::toggle(workspace, "Parallel coordinates/Density", "density", parallel.shows_density))
-        edit("density", [](ParallelState& state) { state.shows_density = !state.shows_density; });
-    ImGui::SameLine();
+        edit("density");
     std::string added = "+ axis";
-    ImGui::SetNextItemWidth(90 * workspace.scale);
+    ui::beside(workspace, 90);
     if (ui::choose_column(workspace, "Parallel coordinates/Add", "##add", added))
         change_axes(workspace, "add axis", [&](std::vector<AxisState>& axes) {
             if (axes.size() < MOST_AXES) {

@@ -3,8 +3,6 @@
 // dragged, closed, zoomed and brushed.
 #pragma once
 
-#include <optional>
-
 #include "inspect/parallel_density.h"
 #include "inspect/parallel_plot.h"
 #include "studio/workspace.h"

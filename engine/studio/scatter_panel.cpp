@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 
 #include <imgui.h>
@@ -12,6 +11,7 @@
 #include "core/error.h"
 #include "inspect/histogram.h"
 #include "inspect/photon_colors.h"
+#include "studio/edit_state.h"
 #include "studio/theme.h"
 #include "studio/widgets.h"
 
@@ -81,8 +81,8 @@ void ScatterPanel::update(Workspace& workspace, Plot& plot, const std::string& t
         return;
     plot = {};
     plot.key = key;
-    const inspect::Column* across = workspace.seek_column(x, plot.missing);
-    const inspect::Column* up = across ? workspace.seek_column(y, plot.missing) : nullptr;
+    const inspect::Column* across = workspace.seek_column(x, &plot.missing);
+    const inspect::Column* up = across ? workspace.seek_column(y, &plot.missing) : nullptr;
     if (!across || !up)
         return;
     plot.x = *across;
@@ -154,44 +154,33 @@ void ScatterPanel::take_lasso(Workspace& workspace, const Plot& plot, float x, f
         return;
     }
     std::vector<glm::dvec2> polygon(m_lasso.begin(), m_lasso.end());
-    const auto ids = std::make_shared<const std::vector<std::uint32_t>>(
-        inspect::find_in_lasso(plot.x, plot.y, *plot.frame, polygon));
-    workspace.change("lasso", [&](StudioState& state) {
-        for (AxisState& axis : state.parallel.axes)
-            axis.brushes.clear();
-        workspace.select(ids);
-    });
+    select_instead(workspace, "lasso",
+                   std::make_shared<const std::vector<std::uint32_t>>(
+                       inspect::find_in_lasso(plot.x, plot.y, *plot.frame, polygon)));
 }
 
 void ScatterPanel::draw_toolbar(Workspace& workspace) {
-    const ScatterState& scatter = workspace.state.scatter;
-    const auto edit = [&](const char* name, const auto& make) {
-        workspace.change(name, [&](StudioState& state) { make(state.scatter); });
+    ScatterState scatter = workspace.state.scatter;
+    const auto edit = [&](const char* name) {
+        workspace.change(name, [&](StudioState& state) { state.scatter = scatter; });
     };
-    const float width = 120 * workspace.scale;
-    std::string x = scatter.x, y = scatter.y;
-    ImGui::SetNextItemWidth(width);
-    if (ui::choose_column(workspace, "Parameter space/X", scatter.is_polar ? "angle" : "x", x))
-        edit("scatter x", [&](ScatterState& state) { state.x = x; });
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(width);
-    if (ui::choose_column(workspace, "Parameter space/Y", scatter.is_polar ? "radius" : "y", y))
-        edit("scatter y", [&](ScatterState& state) { state.y = y; });
+    ImGui::SetNextItemWidth(120 * workspace.scale);
+    if (ui::choose_column(workspace, "Parameter space/X", scatter.is_polar ? "angle" : "x", scatter.x))
+        edit("scatter x");
+    ui::beside(workspace, 120);
+    if (ui::choose_column(workspace, "Parameter space/Y", scatter.is_polar ? "radius" : "y", scatter.y))
+        edit("scatter y");
     ImGui::SameLine();
     if (ui::toggle(workspace, "Parameter space/Polar", "polar", scatter.is_polar))
-        edit("polar", [](ScatterState& state) { state.is_polar = !state.is_polar; });
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(90 * workspace.scale);
-    const int source = ui::choose(workspace, "Parameter space/Source", "##source", scatter.source,
-                                  {"loupe", "all", "selection"}, "Which photons stand out");
-    if (source >= 0)
-        edit("scattered photons", [&](ScatterState& state) {
-            state.source = source == 0 ? "loupe" : source == 1 ? "all" : "selection";
-        });
+        edit("polar");
+    ui::beside(workspace, 90);
+    if (ui::choose(workspace, "Parameter space/Source", "##source", scatter.source, {"loupe", "all", "selection"},
+                   "Which photons stand out"))
+        edit("scattered photons");
     ImGui::SameLine();
     if (ui::toggle(workspace, "Parameter space/Pair", "world beside", scatter.shows_pair,
                    "The loupe's photons in world space and in parameter space"))
-        edit("world beside", [](ScatterState& state) { state.shows_pair = !state.shows_pair; });
+        edit("world beside");
 }
 
 void ScatterPanel::draw(Workspace& workspace) {

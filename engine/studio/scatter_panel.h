@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "inspect/lasso.h"
+#include "inspect/scatter.h"
 #include "studio/workspace.h"
 
 namespace photonloupe::studio {

@@ -26,24 +26,13 @@ class Writer {
 public:
     Writer(Json& target, const std::filesystem::path& folder) : m_target(target), m_folder(folder) {}
 
-    void flag(const char* name, bool& value) { m_target[name] = value; }
-    void text(const char* name, std::string& value, std::size_t) { m_target[name] = value; }
-    void choice(const char* name, std::string& value, std::initializer_list<const char*>) { m_target[name] = value; }
-    void texts(const char* name, std::vector<std::string>& values, std::size_t, std::size_t) {
-        m_target[name] = values;
-    }
-    void whole_numbers(const char* name, std::vector<std::uint32_t>& values, std::size_t) { m_target[name] = values; }
-    void numbers_by_name(const char* name, std::map<std::string, double>& values, double) { m_target[name] = values; }
-    void settings(const std::vector<Setting>& settings) { m_target.update(write_json(settings)); }
-    void member(const char* name, const std::vector<Setting>& settings) { m_target[name] = write_json(settings); }
-    template <class T>
-    void number(const char* name, T& value, double, double) {
+    template <class T, class... Limits>
+    void field(const char* name, T& value, Limits...) {
         m_target[name] = value;
     }
-    template <class T, std::size_t Size>
-    void array(const char* name, std::array<T, Size>& values, double) {
-        m_target[name] = values;
-    }
+    void field(const char* name, std::string& value, std::initializer_list<const char*>) { m_target[name] = value; }
+    void settings(const std::vector<Setting>& settings) { m_target.update(write_json(settings)); }
+    void member(const char* name, const std::vector<Setting>& settings) { m_target[name] = write_json(settings); }
     template <class T>
     void enumeration(const char* name, T& value, std::initializer_list<const char*> names, int first) {
         m_target[name] = names.begin()[static_cast<int>(value) - first];
@@ -60,9 +49,6 @@ public:
             Writer inner(list.emplace_back(Json::object()), m_folder);
             visit(inner, value);
         }
-    }
-    void intervals(const char* name, std::vector<std::array<float, 2>>& values, std::size_t, double) {
-        m_target[name] = values;
     }
     void path(const char* name, std::string& value) {
         if (value.empty() || m_folder.empty()) {
@@ -97,31 +83,25 @@ public:
             refuse_field(m_where.empty() ? "the file" : m_where, "must be an object");
     }
 
-    void flag(const char* name, bool& value) {
+    void field(const char* name, bool& value) {
         if (const Json* found = find(name)) {
             if (!found->is_boolean())
                 refuse_field(place(name), "must be true or false");
             value = found->get<bool>();
         }
     }
-    void text(const char* name, std::string& value, std::size_t longest) {
+    void field(const char* name, std::string& value, std::size_t longest) {
         if (const Json* found = find(name))
             value = take_text(*found, place(name), longest);
     }
-    void choice(const char* name, std::string& value, std::initializer_list<const char*> names) {
-        const Json* found = find(name);
-        if (!found)
-            return;
-        const std::string given = take_text(*found, place(name), LONGEST_NAME);
-        value = *find_choice(name, given, names);
+    void field(const char* name, std::string& value, std::initializer_list<const char*> names) {
+        if (const Json* found = find(name))
+            value = names.begin()[take_choice(*found, place(name), names)];
     }
     template <class T>
     void enumeration(const char* name, T& value, std::initializer_list<const char*> names, int first) {
-        const Json* found = find(name);
-        if (!found)
-            return;
-        const std::string given = take_text(*found, place(name), LONGEST_NAME);
-        value = static_cast<T>(first + static_cast<int>(find_choice(name, given, names) - names.begin()));
+        if (const Json* found = find(name))
+            value = static_cast<T>(first + static_cast<int>(take_choice(*found, place(name), names)));
     }
     void settings(const std::vector<Setting>& settings) {
         for (const Setting& setting : settings)
@@ -134,35 +114,24 @@ public:
             Reader(*found, place(name), m_folder).settings(settings);
     }
     template <class T>
-    void number(const char* name, T& value, double low, double high) {
+        requires std::is_arithmetic_v<T>
+    void field(const char* name, T& value, double low, double high) {
         if (const Json* found = find(name))
             value = static_cast<T>(take_number(*found, place(name), low, high, std::is_integral_v<T>));
     }
     template <class T, std::size_t Size>
-    void array(const char* name, std::array<T, Size>& values, double largest) {
-        const Json* found = find(name);
-        if (!found)
-            return;
-        require_list(*found, place(name), Size);
-        if (found->size() != Size)
-            refuse_field(place(name), "must be " + std::to_string(Size) + " numbers");
-        for (std::size_t i = 0; i < Size; ++i)
-            values[i] = static_cast<T>(take_number((*found)[i], place(name), -largest, largest, false));
+    void field(const char* name, std::array<T, Size>& values, double largest) {
+        if (const Json* found = find(name))
+            values = take_array<T, Size>(*found, place(name), largest);
     }
-    void whole_numbers(const char* name, std::vector<std::uint32_t>& values, std::size_t most) {
+    void field(const char* name, std::vector<std::uint32_t>& values, std::size_t most) {
         if (const Json* found = find(name))
             values = take_ids(*found, place(name), most);
     }
-    void texts(const char* name, std::vector<std::string>& values, std::size_t most, std::size_t longest) {
-        const Json* found = find(name);
-        if (!found)
-            return;
-        require_list(*found, place(name), most);
-        values.clear();
-        for (const Json& entry : *found)
-            values.push_back(take_text(entry, place(name), longest));
+    void field(const char* name, std::vector<std::string>& values, std::size_t most, std::size_t longest) {
+        list(name, values, most, [&](const Json& entry) { return take_text(entry, place(name), longest); });
     }
-    void numbers_by_name(const char* name, std::map<std::string, double>& values, double largest) {
+    void field(const char* name, std::map<std::string, double>& values, double largest) {
         const Json* found = find(name);
         if (!found)
             return;
@@ -171,19 +140,8 @@ public:
         for (const auto& [key, number] : found->items())
             values[key] = take_number(number, place(name) + "." + quote_text(key), -largest, largest, false);
     }
-    void intervals(const char* name, std::vector<std::array<float, 2>>& values, std::size_t most, double largest) {
-        const Json* found = find(name);
-        if (!found)
-            return;
-        require_list(*found, place(name), most);
-        values.clear();
-        for (const Json& entry : *found) {
-            require_list(entry, place(name), 2);
-            if (entry.size() != 2)
-                refuse_field(place(name), "must hold pairs of numbers");
-            values.push_back({static_cast<float>(take_number(entry[0], place(name), -largest, largest, false)),
-                              static_cast<float>(take_number(entry[1], place(name), -largest, largest, false))});
-        }
+    void field(const char* name, std::vector<std::array<float, 2>>& values, std::size_t most, double largest) {
+        list(name, values, most, [&](const Json& entry) { return take_array<float, 2>(entry, place(name), largest); });
     }
     template <class T>
     void member(const char* name, T& value) {
@@ -194,18 +152,15 @@ public:
     }
     template <class T>
     void members(const char* name, std::vector<T>& values, std::size_t most) {
-        const Json* found = find(name);
-        if (!found)
-            return;
-        require_list(*found, place(name), most);
-        values.clear();
-        for (const Json& entry : *found) {
+        list(name, values, most, [&](const Json& entry) {
             Reader inner(entry, place(name), m_folder);
-            visit(inner, values.emplace_back());
-        }
+            T value;
+            visit(inner, value);
+            return value;
+        });
     }
     void path(const char* name, std::string& value) {
-        text(name, value, 4096);
+        field(name, value, 4096);
         if (value.find('\0') != std::string::npos)
             refuse_field(place(name), "must not hold a zero byte");
         if (value.empty() || m_folder.empty() || std::filesystem::path(value).is_absolute())
@@ -233,6 +188,16 @@ public:
     }
 
 private:
+    template <class T, class Take>
+    void list(const char* name, std::vector<T>& values, std::size_t most, const Take& take) {
+        const Json* found = find(name);
+        if (!found)
+            return;
+        require_list(*found, place(name), most);
+        values.clear();
+        for (const Json& entry : *found)
+            values.push_back(take(entry));
+    }
     const Json* find(const char* name) const {
         const auto found = m_source.find(name);
         return found == m_source.end() ? nullptr : &*found;
@@ -266,6 +231,16 @@ private:
                                     Json(low).dump() + " to " + Json(high).dump());
         return number;
     }
+    template <class T, std::size_t Size>
+    static std::array<T, Size> take_array(const Json& value, const std::string& where, double largest) {
+        require_list(value, where, Size);
+        if (value.size() != Size)
+            refuse_field(where, "must be " + std::to_string(Size) + " numbers");
+        std::array<T, Size> values;
+        for (std::size_t i = 0; i < Size; ++i)
+            values[i] = static_cast<T>(take_number(value[i], where, -largest, largest, false));
+        return values;
+    }
     static std::vector<std::uint32_t> take_ids(const Json& value, const std::string& where, std::size_t most) {
         require_list(value, where, most);
         std::vector<std::uint32_t> ids;
@@ -280,15 +255,17 @@ private:
         ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
         return std::make_shared<const std::vector<std::uint32_t>>(std::move(ids));
     }
-    std::initializer_list<const char*>::const_iterator find_choice(const char* name, const std::string& given,
-                                                                   std::initializer_list<const char*> names) const {
+    // Which of `names` it is.
+    static std::size_t take_choice(const Json& value, const std::string& where,
+                                   std::initializer_list<const char*> names) {
+        const std::string given = take_text(value, where, LONGEST_NAME);
         std::string all;
-        for (auto known = names.begin(); known != names.end(); ++known) {
-            if (given == *known)
-                return known;
-            all += (all.empty() ? "" : ", ") + std::string(*known);
+        for (const char* const& known : names) {
+            if (given == known)
+                return static_cast<std::size_t>(&known - names.begin());
+            all += (all.empty() ? "" : ", ") + std::string(known);
         }
-        refuse_field(place(name), "is " + quote_text(given) + "; it must be one of " + all);
+        refuse_field(where, "is " + quote_text(given) + "; it must be one of " + all);
     }
 
     const Json& m_source;
@@ -335,8 +312,8 @@ StudioState read_state(const std::string& text, const std::filesystem::path& fol
     Reader reader(document, "", folder);
     std::string format;
     std::uint32_t version = 0;
-    reader.text("format", format, LONGEST_NAME);
-    reader.number("version", version, 0, 1e9);
+    reader.field("format", format, LONGEST_NAME);
+    reader.field("version", version, 0, 1e9);
     if (format != FORMAT)
         throw Error("session: the file is not a session; open a file that the studio saved");
     if (version < 1 || version > SESSION_VERSION)

@@ -21,19 +21,19 @@ void visit(Archive& archive, TraceState& trace) {
 template <class Archive>
 void visit(Archive& archive, ScriptState& script) {
     archive.path("path", script.path);
-    archive.text("text", script.text, LONGEST_TEXT);
-    archive.text("ran", script.ran, LONGEST_TEXT);
-    archive.numbers_by_name("values", script.values, LARGEST);
+    archive.field("text", script.text, LONGEST_TEXT);
+    archive.field("ran", script.ran, LONGEST_TEXT);
+    archive.field("values", script.values, LARGEST);
 }
 
 template <class Archive>
 void visit(Archive& archive, CameraState& camera) {
-    archive.flag("is_set", camera.is_set);
-    archive.array("target", camera.target, LARGEST);
-    archive.number("yaw", camera.yaw, -1e3, 1e3);
-    archive.number("pitch", camera.pitch, -1.6, 1.6);
-    archive.number("distance", camera.distance, 1e-30, LARGEST);
-    archive.number("yfov", camera.yfov, 1e-3, 3.0);
+    archive.field("is_set", camera.is_set);
+    archive.field("target", camera.target, LARGEST);
+    archive.field("yaw", camera.yaw, -1e3, 1e3);
+    archive.field("pitch", camera.pitch, -1.6, 1.6);
+    archive.field("distance", camera.distance, 1e-30, LARGEST);
+    archive.field("yfov", camera.yfov, 1e-3, 3.0);
 }
 
 template <class Archive>
@@ -41,80 +41,80 @@ void visit(Archive& archive, ViewState& view) {
     archive.enumeration("mode", view.mode,
                         {"points", "voronoi", "kd_tree", "colored_points", "render", "colored_render", "map"}, 1);
     archive.member("camera", view.camera);
-    archive.flag("shows_relaxed", view.shows_relaxed);
-    archive.flag("is_split", view.is_split);
-    archive.number("split_at", view.split_at, 0, 1);
-    archive.number("point_size", view.point_size, 1, 16);
-    archive.number("brightness", view.brightness, -20, 20);
-    archive.number("tree_depth", view.tree_depth, -1, 64);
-    archive.text("map_column", view.map_column, LONGEST_NAME);
+    archive.field("shows_relaxed", view.shows_relaxed);
+    archive.field("is_split", view.is_split);
+    archive.field("split_at", view.split_at, 0, 1);
+    archive.field("point_size", view.point_size, 1, 16);
+    archive.field("brightness", view.brightness, -20, 20);
+    archive.field("tree_depth", view.tree_depth, -1, 64);
+    archive.field("map_column", view.map_column, LONGEST_NAME);
 }
 
 template <class Archive>
 void visit(Archive& archive, LoupeState& loupe) {
     archive.settings(list_settings<inspect::LoupeSettings>(loupe));
-    archive.choice("lock", loupe.lock, {"none", "pin", "brushes"});
-    archive.flag("has_point", loupe.has_point);
-    archive.array("point", loupe.point, LARGEST);
-    archive.whole_numbers("pins", loupe.pins, 16);
-    archive.flag("shows_paths", loupe.shows_paths);
-    archive.flag("shows_drift", loupe.shows_drift);
-    archive.texts("numbers", loupe.numbers, MOST_ENTRIES, LONGEST_NAME);
+    archive.field("lock", loupe.lock, {"none", "pin", "brushes"});
+    archive.field("has_point", loupe.has_point);
+    archive.field("point", loupe.point, LARGEST);
+    archive.field("pins", loupe.pins, 16);
+    archive.field("shows_paths", loupe.shows_paths);
+    archive.field("shows_drift", loupe.shows_drift);
+    archive.field("numbers", loupe.numbers, MOST_ENTRIES, LONGEST_NAME);
 }
 
 template <class Archive>
 void visit(Archive& archive, AxisState& axis) {
-    archive.text("name", axis.name, LONGEST_NAME);
-    archive.number("low", axis.low, -LARGEST, LARGEST);
-    archive.number("high", axis.high, -LARGEST, LARGEST);
-    archive.flag("is_flipped", axis.is_flipped);
-    archive.flag("is_closed", axis.is_closed);
-    archive.number("periods", axis.periods, 1, 64);
-    archive.intervals("brushes", axis.brushes, MOST_ENTRIES, LARGEST);
+    archive.field("name", axis.name, LONGEST_NAME);
+    archive.field("low", axis.low, -LARGEST, LARGEST);
+    archive.field("high", axis.high, -LARGEST, LARGEST);
+    archive.field("is_flipped", axis.is_flipped);
+    archive.field("is_closed", axis.is_closed);
+    archive.field("periods", axis.periods, 1, 64);
+    archive.field("brushes", axis.brushes, MOST_ENTRIES, LARGEST);
 }
 
 template <class Archive>
 void visit(Archive& archive, ParallelState& parallel) {
     archive.members("axes", parallel.axes, 32);
-    archive.number("tension", parallel.tension, 0, 1);
-    archive.choice("source", parallel.source, {"loupe", "all", "selection"});
-    archive.text("color", parallel.color, LONGEST_NAME);
-    archive.flag("shows_density", parallel.shows_density);
+    archive.field("tension", parallel.tension, 0, 1);
+    archive.field("source", parallel.source, {"loupe", "all", "selection"});
+    archive.field("color", parallel.color, LONGEST_NAME);
+    archive.field("shows_density", parallel.shows_density);
 }
 
 template <class Archive>
 void visit(Archive& archive, ScatterState& scatter) {
-    archive.text("x", scatter.x, LONGEST_NAME);
-    archive.text("y", scatter.y, LONGEST_NAME);
-    archive.flag("is_polar", scatter.is_polar);
-    archive.choice("source", scatter.source, {"loupe", "all", "selection"});
-    archive.flag("shows_pair", scatter.shows_pair);
+    archive.field("x", scatter.x, LONGEST_NAME);
+    archive.field("y", scatter.y, LONGEST_NAME);
+    archive.field("is_polar", scatter.is_polar);
+    archive.field("source", scatter.source, {"loupe", "all", "selection"});
+    archive.field("shows_pair", scatter.shows_pair);
 }
 
 template <class Archive>
 void visit(Archive& archive, HistogramState& histogram) {
-    archive.text("column", histogram.column, LONGEST_NAME);
-    archive.number("bins", histogram.bins, 1, 4096);
-    archive.number("threshold", histogram.threshold, -LARGEST, LARGEST);
-    archive.flag("shows_cdf", histogram.shows_cdf);
+    archive.field("column", histogram.column, LONGEST_NAME);
+    archive.field("bins", histogram.bins, 1, 4096);
+    archive.field("threshold", histogram.threshold, -LARGEST, LARGEST);
+    archive.field("shows_cdf", histogram.shows_cdf);
 }
 
 template <class Archive>
 void visit(Archive& archive, RelaxState& relax) {
     archive.member("choices", list_settings(relax.choices));
     archive.member("used", list_settings(relax.used));
-    archive.number("made", relax.made, 0, MOST_STEPS);
-    archive.flag("is_measured", relax.is_measured);
+    archive.field("made", relax.made, 0, MOST_STEPS);
+    archive.field("is_measured", relax.is_measured);
 }
 
 template <class Archive>
 void visit(Archive& archive, ImageState& image) {
-    archive.number("exposure", image.exposure, -64, 64);
-    archive.choice("tone", image.tone, {"srgb", "filmic"});
-    archive.number("overlay", image.overlay, 0, 1);
+    archive.field("exposure", image.exposure, -64, 64);
+    archive.field("tone", image.tone, {"srgb", "filmic"});
+    archive.field("overlay", image.overlay, 0, 1);
     archive.settings(list_choices(image));
     archive.path("reference", image.reference);
-    archive.choice("shows", image.shows, {"image", "reference", "error"});
+    archive.field("shows", image.shows, {"image", "reference", "error"});
 }
 
 template <class Archive>

@@ -75,10 +75,11 @@ bool edit_choice(Workspace& workspace, const std::string& name, const Setting& s
     std::vector<std::string> names = setting.about.choices;
     if (!setting.about.empty.empty())
         names.insert(names.begin(), setting.about.empty);
-    const int chosen = choose(workspace, name, label.c_str(), write_text(setting), names, setting.about.doc.c_str());
-    if (chosen >= 0)
-        value = names[static_cast<std::size_t>(chosen)];
-    return chosen >= 0;
+    std::string chosen = write_text(setting);
+    const bool changed = choose(workspace, name, label.c_str(), chosen, names, setting.about.doc.c_str());
+    if (changed)
+        value = chosen;
+    return changed;
 }
 
 // A value to begin with, where the setting holds nothing.
@@ -94,13 +95,13 @@ SettingValue find_shown(const Setting& setting, const Setting& completed) {
 
 // What may hold nothing: a box that says so, and its value beside it.
 bool edit_box(Workspace& workspace, const std::string& name, const Setting& setting, SettingValue& value) {
-    const bool is_empty = std::holds_alternative<std::monostate>(setting.read(setting));
+    bool is_empty = std::holds_alternative<std::monostate>(setting.read(setting));
     ImGui::SameLine();
     const std::string label = setting.about.empty + "##" + name;
     const std::string about = setting.about.automatic.empty() ? setting.about.doc : setting.about.automatic;
     if (!toggle(workspace, name + "/" + setting.about.empty, label.c_str(), is_empty, about.c_str()))
         return false;
-    if (!is_empty)
+    if (is_empty)
         value = {};
     return true;
 }
@@ -118,7 +119,6 @@ bool edit_setting(Workspace& workspace, const std::string& name, const Setting& 
         changed = edit_choice(workspace, name, setting, label, value);
     } else if (setting.kind == SettingKind::flag) {
         changed = toggle(workspace, name, label.c_str(), std::get<bool>(value), setting.about.doc.c_str());
-        value = changed != std::get<bool>(value);
     } else if (setting.kind == SettingKind::count) {
         changed = edit_count(setting, label, value);
     } else {

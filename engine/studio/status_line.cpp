@@ -53,8 +53,7 @@ void draw_trace_menu(Workspace& workspace) {
 void draw_activity(Workspace& workspace) {
     const Activity& activity = workspace.activity;
     if (activity.is_running) {
-        ImGui::SameLine();
-        ImGui::SetNextItemWidth(160 * workspace.scale);
+        ui::beside(workspace, 160);
         ImGui::ProgressBar(static_cast<float>(activity.fraction), {160 * workspace.scale, 0}, activity.stage.c_str());
         ImGui::SameLine();
         ImGui::BeginDisabled(activity.is_stopping);
@@ -100,8 +99,7 @@ void draw_status_line(Workspace& workspace) {
     draw_export_menu(workspace);
     ImGui::SameLine();
     draw_trace_menu(workspace);
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(150 * workspace.scale);
+    ui::beside(workspace, 150);
     if (ImGui::InputTextWithHint("##open", "open a scene, map, session", &workspace.open_path,
                                  ImGuiInputTextFlags_EnterReturnsTrue))
         workspace.requests.push_back("open " + workspace.open_path);

@@ -268,7 +268,7 @@ std::vector<std::uint32_t> Studio::read_image() {
 std::vector<std::uint32_t> Studio::read_panel(const std::string& name, std::uint32_t width, std::uint32_t height,
                                               float scale) {
     require_panel(name);
-    Studio alone(m_workspace.bench, {width, height, scale, true, {}});
+    Studio alone(m_workspace.bench, {width, height, scale, true});
     Workspace& copy = alone.m_workspace;
     copy.solo = name;
     copy.state = m_workspace.state;

@@ -14,49 +14,34 @@ namespace {
 
 constexpr int MOUSE_BUTTONS = 3;
 
-ImGuiIO& find_io(ImGuiContext* context) {
-    return context->IO;
-}
-
 } // namespace
 
 void Studio::move_mouse(float x, float y) {
     if (!std::isfinite(x) || !std::isfinite(y))
         throw Error("the mouse cannot move to a place that is not finite");
-    find_io(m_context).AddMousePosEvent(x, y);
+    m_context->IO.AddMousePosEvent(x, y);
 }
 
 void Studio::press_mouse(int button, bool is_down) {
     if (button < 0 || button >= MOUSE_BUTTONS)
         throw Error("mouse button " + std::to_string(button) + " is not 0 (left), 1 (right) or 2 (middle)");
-    find_io(m_context).AddMouseButtonEvent(button, is_down);
+    m_context->IO.AddMouseButtonEvent(button, is_down);
 }
 
 void Studio::turn_wheel(float steps) {
     if (!std::isfinite(steps))
         throw Error("the wheel cannot turn by steps that are not finite");
-    find_io(m_context).AddMouseWheelEvent(0, steps);
+    m_context->IO.AddMouseWheelEvent(0, steps);
 }
 
 void Studio::press_key(const std::string& chord) {
-    const int parsed = parse_chord(chord);
-    ImGuiIO& io = find_io(m_context);
-    const auto key = static_cast<ImGuiKey>(parsed & ~ImGuiMod_Mask_);
-    for (const ImGuiKey modifier : {ImGuiMod_Ctrl, ImGuiMod_Shift, ImGuiMod_Alt})
-        if (parsed & modifier)
-            io.AddKeyEvent(modifier, true);
-    if (key != ImGuiKey_None) {
-        io.AddKeyEvent(key, true);
-        io.AddKeyEvent(key, false);
-    }
-    for (const ImGuiKey modifier : {ImGuiMod_Ctrl, ImGuiMod_Shift, ImGuiMod_Alt})
-        if (parsed & modifier)
-            io.AddKeyEvent(modifier, false);
+    hold_key(chord, true);
+    hold_key(chord, false);
 }
 
 void Studio::hold_key(const std::string& name, bool is_down) {
     const int parsed = parse_chord(name);
-    ImGuiIO& io = find_io(m_context);
+    ImGuiIO& io = m_context->IO;
     for (const int key : {int{ImGuiMod_Ctrl}, int{ImGuiMod_Shift}, int{ImGuiMod_Alt}})
         if (parsed & key)
             io.AddKeyEvent(static_cast<ImGuiKey>(key), is_down);
@@ -65,7 +50,7 @@ void Studio::hold_key(const std::string& name, bool is_down) {
 }
 
 void Studio::type_text(const std::string& text) {
-    ImGuiIO& io = find_io(m_context);
+    ImGuiIO& io = m_context->IO;
     std::string run;
     const auto flush = [&] {
         if (!run.empty())

@@ -2,22 +2,19 @@
 // Sets ImGui's and ImPlot's colors and measures.
 #include "studio/theme.h"
 
+#include <utility>
+
 #include <imgui.h>
 #include <implot.h>
 
 namespace photonloupe::studio {
 namespace {
 
-struct ColorEntry {
-    ImGuiCol place;
-    ImVec4 color;
-};
-
 constexpr ImVec4 INK{0.88f, 0.89f, 0.90f, 1}, PALE{0.55f, 0.57f, 0.60f, 1};
 constexpr ImVec4 GROUND{0.115f, 0.12f, 0.13f, 1}, RAISED{0.19f, 0.20f, 0.215f, 1}, LIFTED{0.26f, 0.275f, 0.30f, 1};
 constexpr ImVec4 BLUE{0.31f, 0.55f, 0.82f, 1};
 
-const ColorEntry COLORS[] = {
+const std::pair<ImGuiCol, ImVec4> COLORS[] = {
     {ImGuiCol_Text, INK},
     {ImGuiCol_TextDisabled, PALE},
     {ImGuiCol_WindowBg, GROUND},
@@ -56,8 +53,8 @@ const ColorEntry COLORS[] = {
 void apply_theme(float scale) {
     ImGui::StyleColorsDark();
     ImGuiStyle& style = ImGui::GetStyle();
-    for (const ColorEntry& entry : COLORS)
-        style.Colors[entry.place] = entry.color;
+    for (const auto& [place, color] : COLORS)
+        style.Colors[place] = color;
     style.WindowPadding = {8, 6};
     style.FramePadding = {6, 3};
     style.ItemSpacing = {6, 4};

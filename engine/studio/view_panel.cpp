@@ -40,8 +40,8 @@ ViewFrame place_frame(const Workspace& workspace, ImVec2 low, ImVec2 room) {
         frame.origin = workspace.results.scene->origin;
     else if (workspace.results.photons)
         frame.origin = workspace.results.photons->map.origin;
-    frame.camera = frame_view(find_pose(workspace.state.view.camera), frame.origin,
-                              static_cast<std::uint32_t>(frame.width), static_cast<std::uint32_t>(frame.height));
+    frame.camera = frame_camera(frame.origin, find_pose(workspace.state.view.camera),
+                                static_cast<std::uint32_t>(frame.width), static_cast<std::uint32_t>(frame.height));
     return frame;
 }
 
@@ -65,8 +65,7 @@ std::optional<std::uint32_t> find_photon_at(const Photons& photons, const ViewFr
 // What the colors of the map stand for.
 void draw_color_bar(Workspace& workspace, const ViewFrame& frame) {
     constexpr int STEPS = 64;
-    std::string missing;
-    const inspect::Column* column = workspace.seek_column(workspace.state.view.map_column, missing);
+    const inspect::Column* column = workspace.seek_column(workspace.state.view.map_column);
     if (!column)
         return;
     ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -102,41 +101,32 @@ glm::vec3 find_pixel(const ViewFrame& frame, const std::array<double, 3>& place)
 }
 
 void ViewPanel::draw_toolbar(Workspace& workspace) {
-    ViewState& view = workspace.state.view;
-    const auto mode = static_cast<int>(view.mode);
     ImGui::SetNextItemWidth(170 * workspace.scale);
-    const int chosen = ui::choose(
-        workspace, "View/Mode", "##mode", MODE_NAMES[mode - 1],
-        {MODE_NAMES[0], MODE_NAMES[1], MODE_NAMES[2], MODE_NAMES[3], MODE_NAMES[4], MODE_NAMES[5], MODE_NAMES[6]});
-    if (chosen >= 0)
-        set_mode(workspace, static_cast<ViewMode>(chosen + 1));
+    std::string mode = MODE_NAMES[static_cast<int>(workspace.state.view.mode) - 1];
+    if (ui::choose(workspace, "View/Mode", "##mode", mode, {std::begin(MODE_NAMES), std::end(MODE_NAMES)}))
+        set_mode(workspace, static_cast<ViewMode>(std::find(std::begin(MODE_NAMES), std::end(MODE_NAMES), mode) -
+                                                  std::begin(MODE_NAMES) + 1));
+    ViewState view = workspace.state.view;
+    const auto edit = [&](const char* name) { workspace.change(name, [&](StudioState& state) { state.view = view; }); };
     if (view.mode == ViewMode::map) {
-        ImGui::SameLine();
-        ImGui::SetNextItemWidth(140 * workspace.scale);
-        std::string column = view.map_column;
-        if (ui::choose_column(workspace, "View/Column", "##column", column))
-            workspace.change("map", [&](StudioState& state) { state.view.map_column = column; });
+        ui::beside(workspace, 140);
+        if (ui::choose_column(workspace, "View/Column", "##column", view.map_column))
+            edit("map");
     }
     if (view.mode == ViewMode::kd_tree) {
-        ImGui::SameLine();
-        ImGui::SetNextItemWidth(110 * workspace.scale);
-        int depth = view.tree_depth;
-        if (ImGui::SliderInt("##depth", &depth, -1, 24, depth < 0 ? "leaves" : "depth %d",
+        ui::beside(workspace, 110);
+        if (ImGui::SliderInt("##depth", &view.tree_depth, -1, 24, view.tree_depth < 0 ? "leaves" : "depth %d",
                              ImGuiSliderFlags_AlwaysClamp))
-            workspace.change("tree depth", [&](StudioState& state) { state.view.tree_depth = depth; });
+            edit("tree depth");
         ui::mark(workspace, "View/Depth");
     }
     if (!shows_render(view.mode) && view.mode != ViewMode::voronoi && view.mode != ViewMode::kd_tree) {
-        ImGui::SameLine();
-        ImGui::SetNextItemWidth(90 * workspace.scale);
-        float size = view.point_size;
-        if (ui::slide(workspace, "View/Size", "##size", size, 1.0f, 16.0f, "%.1f px"))
-            workspace.change("point size", [&](StudioState& state) { state.view.point_size = size; });
-        ImGui::SameLine();
-        ImGui::SetNextItemWidth(90 * workspace.scale);
-        float brightness = view.brightness;
-        if (ui::slide(workspace, "View/Brightness", "##brightness", brightness, -6.0f, 6.0f, "%.1f stops"))
-            workspace.change("brightness", [&](StudioState& state) { state.view.brightness = brightness; });
+        ui::beside(workspace, 90);
+        if (ui::slide(workspace, "View/Size", "##size", view.point_size, 1.0f, 16.0f, "%.1f px"))
+            edit("point size");
+        ui::beside(workspace, 90);
+        if (ui::slide(workspace, "View/Brightness", "##brightness", view.brightness, -6.0f, 6.0f, "%.1f stops"))
+            edit("brightness");
     }
     ImGui::SameLine();
     if (ui::button(workspace, "View/Frame", "Frame", "Frame the selection, or all photons (F)"))

@@ -78,7 +78,7 @@ std::vector<std::uint32_t> paint(const inspect::CellImage& cells, std::span<cons
 bool find_what_is_missing(Workspace& workspace, Photons& photons, std::string& missing) {
     const ViewState& view = workspace.state.view;
     if (view.mode == ViewMode::map)
-        workspace.seek_column(view.map_column, missing, &photons);
+        workspace.seek_column(view.map_column, &missing, &photons);
     if (view.mode == ViewMode::colored_points && !photons.map.colors)
         missing = "the photons have no false colors; run a script that calls setPhotonColourEncoding";
     return !missing.empty();
@@ -111,14 +111,14 @@ void ViewPicture::see(Workspace& workspace, std::uint32_t width, std::uint32_t h
         return;
     // Photons are seen through glass: it is what they came through.
     m_surface = inspect::see_surfaces(workspace.device, *scene, *workspace.bench.find_buffers(*scene),
-                                      frame_view(pose, scene->origin, width, height), {width, height, true});
+                                      frame_camera(scene->origin, pose, width, height), {width, height, true});
     m_surface_key = key;
 }
 
 void ViewPicture::draw_points(Workspace& workspace, Photons& photons, std::uint32_t width, std::uint32_t height) {
     const ViewState& view = workspace.state.view;
     const std::array<double, 3> origin = m_surface ? m_surface->origin : photons.map.origin;
-    const inspect::SplatView seen{width, height, frame_view(find_pose(view.camera), origin, width, height), origin,
+    const inspect::SplatView seen{width, height, frame_camera(origin, find_pose(view.camera), width, height), origin,
                                   m_surface ? &*m_surface : nullptr};
     const bool is_colored = view.mode != ViewMode::points;
     const std::string source = view.mode == ViewMode::map ? view.map_column : "encoding";

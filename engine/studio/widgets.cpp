@@ -20,6 +20,11 @@ void explain(const char* text) {
         ImGui::SetTooltip("%s", text);
 }
 
+void beside(const Workspace& workspace, float width) {
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(width * workspace.scale);
+}
+
 bool button(Workspace& workspace, const std::string& name, const char* label, const char* about) {
     const bool pressed = ImGui::Button(label);
     mark(workspace, name);
@@ -27,31 +32,31 @@ bool button(Workspace& workspace, const std::string& name, const char* label, co
     return pressed;
 }
 
-bool toggle(Workspace& workspace, const std::string& name, const char* label, bool is_on, const char* about) {
-    bool value = is_on;
+bool toggle(Workspace& workspace, const std::string& name, const char* label, bool& value, const char* about) {
     const bool changed = ImGui::Checkbox(label, &value);
     mark(workspace, name);
     explain(about);
     return changed;
 }
 
-int choose(Workspace& workspace, const std::string& name, const char* label, const std::string& current,
-           const std::vector<std::string>& entries, const char* about) {
-    int chosen = -1;
-    const bool is_open = ImGui::BeginCombo(label, current.c_str());
+bool choose(Workspace& workspace, const std::string& name, const char* label, std::string& value,
+            const std::vector<std::string>& entries, const char* about) {
+    bool changed = false;
+    const bool is_open = ImGui::BeginCombo(label, value.c_str());
     mark(workspace, name);
     explain(about);
     if (!is_open)
-        return chosen;
-    int index = 0;
+        return false;
+    const std::string current = value;
     for (const std::string& entry : entries) {
-        if (ImGui::Selectable(entry.c_str(), current == entry))
-            chosen = index;
+        if (ImGui::Selectable(entry.c_str(), current == entry)) {
+            value = entry;
+            changed = true;
+        }
         mark(workspace, name + "/" + entry);
-        ++index;
     }
     ImGui::EndCombo();
-    return chosen;
+    return changed;
 }
 
 bool choose_column(Workspace& workspace, const std::string& name, const char* label, std::string& value,

@@ -14,12 +14,15 @@ void mark(Workspace& workspace, const std::string& name);
 // Explains the last item while the mouse rests on it.
 void explain(const char* text);
 
+// The next item stands beside the last, so wide before the window's scale.
+void beside(const Workspace& workspace, float width);
+
 bool button(Workspace& workspace, const std::string& name, const char* label, const char* about = nullptr);
-bool toggle(Workspace& workspace, const std::string& name, const char* label, bool is_on, const char* about = nullptr);
-// Returns the entry that was chosen now, or -1.
-int choose(Workspace& workspace, const std::string& name, const char* label, const std::string& current,
-           const std::vector<std::string>& entries, const char* about = nullptr);
-// A column of the photons in view; true: `value` was changed.
+// True: `value` was changed; so of the others.
+bool toggle(Workspace& workspace, const std::string& name, const char* label, bool& value, const char* about = nullptr);
+bool choose(Workspace& workspace, const std::string& name, const char* label, std::string& value,
+            const std::vector<std::string>& entries, const char* about = nullptr);
+// A column of the photons in view.
 bool choose_column(Workspace& workspace, const std::string& name, const char* label, std::string& value,
                    const char* extra = nullptr);
 bool slide(Workspace& workspace, const std::string& name, const char* label, float& value, float low, float high,

@@ -35,7 +35,7 @@ GLFWwindow* open_window(std::uint32_t width, std::uint32_t height, Studio& studi
     }
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     GLFWwindow* window =
-        glfwCreateWindow(static_cast<int>(width), static_cast<int>(height), title.c_str(), nullptr, nullptr);
+        glfwCreateWindow(static_cast<int>(width), static_cast<int>(height), "Photon Loupe", nullptr, nullptr);
     if (!window) {
         glfwGetError(&reason);
         glfwTerminate();

@@ -3,8 +3,6 @@
 #include "studio/workspace.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 
 #include "core/error.h"
 #include "image/png.h"
@@ -100,11 +98,12 @@ const inspect::Column& Workspace::find_column(const std::string& name, Photons* 
     return m_columns[key] = std::move(column);
 }
 
-const inspect::Column* Workspace::seek_column(const std::string& name, std::string& missing, Photons* photons) {
+const inspect::Column* Workspace::seek_column(const std::string& name, std::string* missing, Photons* photons) {
     try {
         return &find_column(name, photons);
     } catch (const Error& error) {
-        missing = error.what();
+        if (missing)
+            *missing = error.what();
         return nullptr;
     }
 }
@@ -142,8 +141,7 @@ const std::vector<std::uint32_t>& Workspace::find_colors(const std::string& name
         return found->second;
     if (name == ENCODING)
         return m_colors[key] = pack_encoding(photons->map);
-    std::string missing;
-    const inspect::Column* column = seek_column(name, missing, photons);
+    const inspect::Column* column = seek_column(name, nullptr, photons);
     return column ? m_colors[key] = pack_column(*column) : none; // it may be there in a later frame
 }
 

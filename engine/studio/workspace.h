@@ -2,9 +2,7 @@
 // What all panels share: the state, its results, what is cached of them, and how changes are made.
 #pragma once
 
-#include <functional>
 #include <map>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -117,7 +115,8 @@ struct Workspace {
     // A column of the photons in view, or of those given, computed once. Throws Error as find_column does.
     const inspect::Column& find_column(const std::string& name, Photons* photons = nullptr);
     // The same, or null with what to do in `missing`.
-    const inspect::Column* seek_column(const std::string& name, std::string& missing, Photons* photons = nullptr);
+    const inspect::Column* seek_column(const std::string& name, std::string* missing = nullptr,
+                                       Photons* photons = nullptr);
     const std::vector<inspect::ColumnInfo>& list_columns();
     // What columns call the parameters, in their order.
     const std::vector<std::string>& list_parameters();

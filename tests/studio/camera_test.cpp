@@ -24,7 +24,7 @@ TEST(Camera, aim_undoes_project) {
     camera.target = {1000.5, -3, 2};
     camera.distance = 4;
     const CameraPose pose = find_pose(camera);
-    const shared::CameraFrame frame = frame_view(pose, {1000, 0, 0}, WIDTH, HEIGHT);
+    const shared::CameraFrame frame = frame_camera({1000, 0, 0}, pose, WIDTH, HEIGHT);
     for (int i = 0; i < 100; ++i) {
         const glm::vec3 point = glm::vec3(0.5f, -3, 2) + glm::vec3(place(engine), place(engine), place(engine));
         const glm::vec3 pixel = project(frame, point, WIDTH, HEIGHT);
@@ -38,7 +38,7 @@ TEST(Camera, target_is_in_the_middle_and_depth_is_distance) {
     CameraState camera;
     camera.target = {1, 2, 3};
     camera.distance = 5;
-    const shared::CameraFrame frame = frame_view(find_pose(camera), {}, WIDTH, HEIGHT);
+    const shared::CameraFrame frame = frame_camera({}, find_pose(camera), WIDTH, HEIGHT);
     const glm::vec3 pixel = project(frame, {1, 2, 3}, WIDTH, HEIGHT);
     EXPECT_NEAR(pixel.x, WIDTH / 2.0f, 1e-2);
     EXPECT_NEAR(pixel.y, HEIGHT / 2.0f, 1e-2);
@@ -48,7 +48,7 @@ TEST(Camera, target_is_in_the_middle_and_depth_is_distance) {
 TEST(Camera, right_is_right_and_up_is_up) {
     CameraState camera;
     camera.yaw = camera.pitch = 0;
-    const shared::CameraFrame frame = frame_view(find_pose(camera), {}, WIDTH, HEIGHT);
+    const shared::CameraFrame frame = frame_camera({}, find_pose(camera), WIDTH, HEIGHT);
     EXPECT_GT(project(frame, {0.1f, 0, 0}, WIDTH, HEIGHT).x, WIDTH / 2.0f);
     EXPECT_LT(project(frame, {0, 0.1f, 0}, WIDTH, HEIGHT).y, HEIGHT / 2.0f);
     EXPECT_LE(project(frame, {0, 0, 2}, WIDTH, HEIGHT).z, 0);
@@ -73,7 +73,7 @@ TEST(Camera, fitted_box_is_within_the_view) {
         CameraState camera;
         fit_box(camera, {{-scale, -2 * scale, 0}, {scale, 2 * scale, 3 * scale}});
         EXPECT_TRUE(camera.is_set);
-        const shared::CameraFrame frame = frame_view(find_pose(camera), {}, WIDTH, HEIGHT);
+        const shared::CameraFrame frame = frame_camera({}, find_pose(camera), WIDTH, HEIGHT);
         const auto size = static_cast<float>(scale);
         for (int corner = 0; corner < 8; ++corner) {
             const glm::vec3 at(corner & 1 ? size : -size, corner & 2 ? 2 * size : -2 * size, corner & 4 ? 3 * size : 0);
