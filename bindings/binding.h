@@ -14,6 +14,7 @@
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/string_view.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/vector.h>
@@ -25,6 +26,25 @@ namespace nb = nanobind;
 
 namespace photonloupe::bindings {
 
+using namespace nb::literals;
+
+// A dictionary: make_row("name"_a = value, …).
+template <class... Fields>
+nb::dict make_row(const Fields&... fields) {
+    nb::dict row;
+    ((row[fields.name_] = fields.value), ...);
+    return row;
+}
+
+// A list of what `describe` says of each.
+template <class Range, class Describe>
+nb::list list_rows(const Range& range, const Describe& describe) {
+    nb::list rows;
+    for (const auto& each : range)
+        rows.append(describe(each));
+    return rows;
+}
+
 // A device with its workbench: what Python calls `Device`.
 struct OpenDevice {
     gpu::Device device;
@@ -35,37 +55,45 @@ struct OpenDevice {
 template <class T, std::size_t Width>
 using Matrix = nb::ndarray<nb::numpy, T, nb::shape<-1, static_cast<nb::ssize_t>(Width)>, nb::c_contig>;
 
+using Pixels = nb::ndarray<nb::numpy, const float, nb::shape<-1, -1, 3>, nb::c_contig>;
+
+// Owns a value on the heap for Python.
+template <class T>
+nb::capsule own(T* kept) {
+    return nb::capsule(kept, [](void* pointer) noexcept { delete static_cast<T*>(pointer); });
+}
+
 // An array of rows that takes the vector's memory along.
 template <class T>
 nb::ndarray<nb::numpy, T> own_array(std::vector<T>&& values, std::size_t width = 0) {
     auto* kept = new std::vector<T>(std::move(values));
-    nb::capsule owner(kept, [](void* pointer) noexcept { delete static_cast<std::vector<T>*>(pointer); });
-    const std::size_t rows = width == 0 ? kept->size() : kept->size() / width;
-    const std::size_t shape[2] = {rows, width};
-    return nb::ndarray<nb::numpy, T>(kept->data(), width == 0 ? 1 : 2, shape, owner);
+    const std::size_t shape[2] = {width == 0 ? kept->size() : kept->size() / width, width};
+    return nb::ndarray<nb::numpy, T>(kept->data(), width == 0 ? 1 : 2, shape, own(kept));
 }
 
 // The same for pixels: (height, width, 3).
 template <class T>
 nb::ndarray<nb::numpy, T, nb::ndim<3>> own_pixels(std::vector<T>&& values, std::size_t height, std::size_t width) {
     auto* kept = new std::vector<T>(std::move(values));
-    nb::capsule owner(kept, [](void* pointer) noexcept { delete static_cast<std::vector<T>*>(pointer); });
     const std::size_t shape[3] = {height, width, 3};
-    return nb::ndarray<nb::numpy, T, nb::ndim<3>>(kept->data(), 3, shape, owner);
+    return nb::ndarray<nb::numpy, T, nb::ndim<3>>(kept->data(), 3, shape, own(kept));
 }
 
 // A column of a shared state that lives as long as either of its owners; `tail` is the shape of one row.
 template <class Owner, class T>
 nb::ndarray<nb::numpy, const T> share_array(const std::shared_ptr<const Owner>& shared, const std::vector<T>& values,
                                             const std::vector<std::size_t>& tail) {
-    auto* kept = new std::shared_ptr<const Owner>(shared);
-    nb::capsule owner(kept, [](void* pointer) noexcept { delete static_cast<std::shared_ptr<const Owner>*>(pointer); });
     std::size_t width = 1;
     for (const std::size_t length : tail)
         width *= length;
     std::vector<std::size_t> shape{values.size() / width};
     shape.insert(shape.end(), tail.begin(), tail.end());
-    return nb::ndarray<nb::numpy, const T>(values.data(), shape.size(), shape.data(), owner);
+    return nb::ndarray<nb::numpy, const T>(values.data(), shape.size(), shape.data(), own(new auto(shared)));
+}
+
+inline Image take_image(const Pixels& pixels, std::map<std::string, std::string> attributes = {}) {
+    return {static_cast<std::uint32_t>(pixels.shape(1)), static_cast<std::uint32_t>(pixels.shape(0)),
+            std::vector<float>(pixels.data(), pixels.data() + pixels.size()), std::move(attributes)};
 }
 
 // Long work runs without the GIL; between chunks the callback is asked and signals are taken.

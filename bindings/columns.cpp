@@ -35,11 +35,6 @@ nb::object view_places(nb::handle self, const PhotonMap& map, const gpu::Buffer&
     return nb::cast(own_array(read(map), 3));
 }
 
-template <class T>
-nb::object own(std::vector<T>&& values) {
-    return nb::cast(own_array(std::move(values)));
-}
-
 nb::object share(const SharedFloats& column, std::size_t width) {
     return nb::cast(share_array(column, *column, {width}));
 }
@@ -82,12 +77,16 @@ constexpr BoundColumn COLUMNS[] = {
      [](nb::handle self, const Photons& photons) {
          return view_rgb(self, photons.map.power_object, photons.map.count);
      }},
-    {"emitter", has_always, [](nb::handle, const Photons& photons) { return own(read_emitters(photons.map)); }},
+    {"emitter", has_always,
+     [](nb::handle, const Photons& photons) { return nb::cast(own_array(read_emitters(photons.map))); }},
     {"emitted_index", has_always,
-     [](nb::handle, const Photons& photons) { return own(read_emitted_indices(photons.map)); }},
-    {"object", has_always, [](nb::handle, const Photons& photons) { return own(read_objects(photons.map)); }},
+     [](nb::handle, const Photons& photons) { return nb::cast(own_array(read_emitted_indices(photons.map))); }},
+    {"object", has_always,
+     [](nb::handle, const Photons& photons) { return nb::cast(own_array(read_objects(photons.map))); }},
     {"path_offsets", has_any_paths,
-     [](nb::handle, const Photons& photons) { return own(read_path_offsets(*photons.map.paths, photons.map.count)); }},
+     [](nb::handle, const Photons& photons) {
+         return nb::cast(own_array(read_path_offsets(*photons.map.paths, photons.map.count)));
+     }},
     {"path_vertices", has_any_paths,
      [](nb::handle self, const Photons& photons) {
          return view_places(self, photons.map, photons.map.paths->vertices, photons.map.paths->vertex_count,
@@ -98,11 +97,13 @@ constexpr BoundColumn COLUMNS[] = {
          return view_rgb(self, photons.map.paths->normals, photons.map.paths->vertex_count);
      }},
     {"path_interactions", has_paths<&PathColumns::has_interactions>,
-     [](nb::handle, const Photons& photons) { return own(read_path_interactions(*photons.map.paths)); }},
+     [](nb::handle, const Photons& photons) {
+         return nb::cast(own_array(read_path_interactions(*photons.map.paths)));
+     }},
     {"path_objects", has_paths<&PathColumns::has_objects>,
-     [](nb::handle, const Photons& photons) { return own(read_path_objects(*photons.map.paths)); }},
+     [](nb::handle, const Photons& photons) { return nb::cast(own_array(read_path_objects(*photons.map.paths))); }},
     {"path_scatter", has_paths<&PathColumns::has_scatter>,
-     [](nb::handle, const Photons& photons) { return own(read_path_scatter(*photons.map.paths)); }},
+     [](nb::handle, const Photons& photons) { return nb::cast(own_array(read_path_scatter(*photons.map.paths))); }},
     {"parameters", [](const Photons& photons) { return photons.map.parameters.has_value(); },
      [](nb::handle, const Photons& photons) {
          return share(photons.map.parameters->given, photons.map.parameters->count);
@@ -138,7 +139,7 @@ nb::object read_column(nb::handle self, const std::string& name) {
 
 void bind_columns(nb::class_<Photons>& type) {
     type.def_prop_ro("names", &list_names, "Of the columns there are.")
-        .def("column", &read_column, nb::arg("name"), "The column, read-only; None: there is none.");
+        .def("column", &read_column, "name"_a, "The column, read-only; None: there is none.");
 }
 
 } // namespace photonloupe::bindings

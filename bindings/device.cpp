@@ -9,16 +9,9 @@ namespace photonloupe::bindings {
 namespace {
 
 nb::dict describe(const gpu::DeviceInfo& info) {
-    nb::dict row;
-    row["index"] = info.index;
-    row["name"] = info.name;
-    row["type"] = info.type;
-    row["driver"] = info.driver;
-    row["api_version"] = info.api_version;
-    row["memory"] = info.memory_bytes;
-    row["usable"] = info.usable;
-    row["reason"] = info.reason;
-    return row;
+    return make_row("index"_a = info.index, "name"_a = info.name, "type"_a = info.type, "driver"_a = info.driver,
+                    "api_version"_a = info.api_version, "memory"_a = info.memory_bytes, "usable"_a = info.usable,
+                    "reason"_a = info.reason);
 }
 
 nb::dict describe_open(const OpenDevice& open) {
@@ -32,40 +25,26 @@ nb::dict describe_open(const OpenDevice& open) {
 }
 
 nb::list list_timings(OpenDevice& open) {
-    nb::list rows;
-    for (const auto& [stage, timing] : open.device.take_timings()) {
-        nb::dict row;
-        row["stage"] = stage;
-        row["milliseconds"] = timing.milliseconds;
-        row["dispatches"] = timing.dispatch_count;
-        rows.append(row);
-    }
-    return rows;
+    return list_rows(open.device.take_timings(), [](const auto& taken) {
+        const auto& [stage, timing] = taken;
+        return make_row("stage"_a = stage, "milliseconds"_a = timing.milliseconds,
+                        "dispatches"_a = timing.dispatch_count);
+    });
 }
 
 } // namespace
 
 void bind_device(nb::module_& module) {
     module.def(
-        "list_devices",
-        [] {
-            nb::list rows;
-            for (const gpu::DeviceInfo& info : gpu::list_devices())
-                rows.append(describe(info));
-            return rows;
-        },
+        "list_devices", [] { return list_rows(gpu::list_devices(), &describe); },
         "Every Vulkan device of this machine.");
     nb::class_<OpenDevice>(module, "Device")
-        .def(nb::init<const std::string&>(), nb::arg("selector") = "auto")
+        .def(nb::init<const std::string&>(), "selector"_a = "auto")
         .def_prop_ro("info", &describe_open)
         .def("self_test",
              [](OpenDevice& open) {
                  const gpu::SelfTest test = gpu::run_self_test(open.device);
-                 nb::dict row;
-                 row["ok"] = test.ok;
-                 row["milliseconds"] = test.milliseconds;
-                 row["message"] = test.message;
-                 return row;
+                 return make_row("ok"_a = test.ok, "milliseconds"_a = test.milliseconds, "message"_a = test.message);
              })
         .def(
             "forget", [](OpenDevice& open) { open.workbench.forget(); },

@@ -56,22 +56,16 @@ void bind_estimate(nb::module_& module) {
         [](const std::array<double, 3>& position, const std::array<double, 3>& target, const std::array<double, 3>& up,
            double yfov) {
             const Camera camera = aim_camera(position, target, up, yfov);
-            nb::dict row;
-            row["position"] = camera.position;
-            row["right"] = camera.right;
-            row["up"] = camera.up;
-            row["backward"] = camera.backward;
-            row["yfov"] = camera.yfov;
-            return row;
+            return make_row("position"_a = camera.position, "right"_a = camera.right, "up"_a = camera.up,
+                            "backward"_a = camera.backward, "yfov"_a = camera.yfov);
         },
-        nb::arg("position"), nb::arg("target"), nb::arg("up"), nb::arg("yfov"),
-        "A camera with its axes, that looks from one point at another.");
-    module.def("estimate_irradiance", &estimate, nb::arg("device"), nb::arg("photons"), nb::arg("points"),
-               nb::arg("normals"), nb::arg("settings"), nb::arg("progress").none() = nb::none(),
+        "position"_a, "target"_a, "up"_a, "yfov"_a, "A camera with its axes, that looks from one point at another.");
+    module.def("estimate_irradiance", &estimate, "device"_a, "photons"_a, "points"_a, "normals"_a, "settings"_a,
+               "progress"_a = nb::none(),
                "Irradiance (n, 3) in W/m² at points with unit normals; settings as describe_settings(\"irradiance\") "
                "has them.");
-    module.def("render_image", &render, nb::arg("device"), nb::arg("scene"), nb::arg("photons").none(),
-               nb::arg("settings"), nb::arg("progress").none() = nb::none(),
+    module.def("render_image", &render, "device"_a, "scene"_a, "photons"_a.none(), "settings"_a,
+               "progress"_a = nb::none(),
                "Linear radiance (height, width, 3); settings as describe_settings(\"render\") has them, and camera.");
 }
 

@@ -16,30 +16,17 @@ using namespace inspect;
 using Matrix1 = nb::ndarray<nb::numpy, const float, nb::ndim<1>, nb::c_contig>;
 
 nb::list describe_columns(const Photons& photons) {
-    nb::list rows;
-    for (const ColumnInfo& info : list_columns(photons)) {
-        nb::dict row;
-        row["name"] = info.name;
-        row["label"] = info.label;
-        row["period"] = info.period;
-        row["discrete"] = info.is_discrete;
-        row["needs_paths"] = info.needs_paths;
-        row["missing"] = info.missing;
-        rows.append(row);
-    }
-    return rows;
+    return list_rows(list_columns(photons), [](const ColumnInfo& info) {
+        return make_row("name"_a = info.name, "label"_a = info.label, "period"_a = info.period,
+                        "discrete"_a = info.is_discrete, "needs_paths"_a = info.needs_paths,
+                        "missing"_a = info.missing);
+    });
 }
 
 nb::dict describe_column(Column column) {
-    nb::dict row;
-    row["name"] = column.name;
-    row["label"] = column.label;
-    row["low"] = column.low;
-    row["high"] = column.high;
-    row["period"] = column.period;
-    row["discrete"] = column.is_discrete;
-    row["values"] = own_array(std::move(column.values));
-    return row;
+    return make_row("name"_a = column.name, "label"_a = column.label, "low"_a = column.low, "high"_a = column.high,
+                    "period"_a = column.period, "discrete"_a = column.is_discrete,
+                    "values"_a = own_array(std::move(column.values)));
 }
 
 nb::tuple take_vector(const glm::vec3& v) {
@@ -75,49 +62,31 @@ nb::dict describe_numbers(const LoupeNumbers& numbers) {
     nb::dict parameters;
     for (const auto& [name, value] : numbers.parameters)
         parameters[nb::str(name.c_str())] = value;
-    nb::dict row;
-    row["position"] = numbers.position;
-    row["power"] = take_vector(numbers.power);
-    row["parameters"] = parameters;
-    row["interactions"] = numbers.interactions;
-    row["signature"] = numbers.signature;
-    row["tortuosity"] = numbers.tortuosity;
-    row["path_length"] = numbers.path_length;
-    row["one_sidedness"] = numbers.one_sidedness;
-    row["drift"] = numbers.drift;
-    row["pressure"] = numbers.pressure;
-    return row;
+    return make_row("position"_a = numbers.position, "power"_a = take_vector(numbers.power),
+                    "parameters"_a = parameters, "interactions"_a = numbers.interactions,
+                    "signature"_a = numbers.signature, "tortuosity"_a = numbers.tortuosity,
+                    "path_length"_a = numbers.path_length, "one_sidedness"_a = numbers.one_sidedness,
+                    "drift"_a = numbers.drift, "pressure"_a = numbers.pressure);
 }
 
-// Rows u_b, v_b of the ellipses' directions, and their half-axes.
-void describe_ellipses(nb::dict& row, const std::vector<DriftEllipse>& ellipses) {
-    std::vector<float> bases, half_axes;
-    for (const DriftEllipse& ellipse : ellipses) {
+nb::dict describe_view(const LoupeView& view) {
+    std::vector<float> bases, half_axes; // rows u_b, v_b of the ellipses' directions, and their half-axes
+    for (const DriftEllipse& ellipse : view.ellipses) {
         for (const glm::vec3& axis : {ellipse.along, ellipse.across})
             bases.insert(bases.end(), {axis.x, axis.y, axis.z});
         half_axes.insert(half_axes.end(), {ellipse.half_along, ellipse.half_across});
     }
-    row["ellipse_axes"] = own_pixels(std::move(bases), ellipses.size(), 2);
-    row["ellipse_half_axes"] = own_array(std::move(half_axes), 2);
-}
-
-nb::dict describe_view(const LoupeView& view) {
-    nb::dict row;
-    row["center"] = view.center;
-    row["ids"] = own_array(std::vector<std::uint32_t>(view.ids));
-    row["distances"] = own_array(std::vector<float>(view.distances));
-    row["radius"] = view.radius;
-    row["positions"] = take_vectors(view.positions, view.origin);
-    row["colors"] = view.colors.empty() ? nb::none() : take_vectors(view.colors);
-    row["has_constraint"] = view.has_constraint;
-    row["basis"] = take_vectors({view.along, view.across});
-    row["freedom"] = nb::make_tuple(view.freedom_along, view.freedom_across);
-    row["eigenvalues"] = nb::make_tuple(view.spread.along_variance, view.spread.across_variance);
-    row["eigenvectors"] = take_vectors({view.spread.along, view.spread.across});
-    row["isotropy"] = view.spread.isotropy;
-    row["numbers"] = describe_numbers(view.numbers);
-    describe_ellipses(row, view.ellipses);
-    return row;
+    return make_row("center"_a = view.center, "ids"_a = own_array(std::vector<std::uint32_t>(view.ids)),
+                    "distances"_a = own_array(std::vector<float>(view.distances)), "radius"_a = view.radius,
+                    "positions"_a = take_vectors(view.positions, view.origin),
+                    "colors"_a = view.colors.empty() ? nb::none() : take_vectors(view.colors),
+                    "has_constraint"_a = view.has_constraint, "basis"_a = take_vectors({view.along, view.across}),
+                    "freedom"_a = nb::make_tuple(view.freedom_along, view.freedom_across),
+                    "eigenvalues"_a = nb::make_tuple(view.spread.along_variance, view.spread.across_variance),
+                    "eigenvectors"_a = take_vectors({view.spread.along, view.spread.across}),
+                    "isotropy"_a = view.spread.isotropy, "numbers"_a = describe_numbers(view.numbers),
+                    "ellipse_axes"_a = own_pixels(std::move(bases), view.ellipses.size(), 2),
+                    "ellipse_half_axes"_a = own_array(std::move(half_axes), 2));
 }
 
 nb::dict look(OpenDevice& open, Photons& photons, const nb::dict& given, nb::object progress) {
@@ -142,14 +111,9 @@ nb::dict count(const Matrix1& values, std::uint32_t bins, std::optional<std::pai
     column.low = bounds.first;
     column.high = bounds.second;
     ColumnHistogram histogram = count_column(column, bins, range);
-    nb::dict row;
-    row["counts"] = own_array(std::vector<std::int64_t>(histogram.counts.begin(), histogram.counts.end()));
-    row["edges"] = own_array(std::move(histogram.edges));
-    row["cdf"] = own_array(std::move(histogram.cdf));
-    row["below"] = histogram.below;
-    row["above"] = histogram.above;
-    row["non_finite"] = histogram.non_finite;
-    return row;
+    return make_row("counts"_a = own_array(std::vector<std::int64_t>(histogram.counts.begin(), histogram.counts.end())),
+                    "edges"_a = own_array(std::move(histogram.edges)), "cdf"_a = own_array(std::move(histogram.cdf)),
+                    "below"_a = histogram.below, "above"_a = histogram.above, "non_finite"_a = histogram.non_finite);
 }
 
 nb::tuple measure(OpenDevice& open, Matrix<const double, 2> points, std::array<double, 2> radius, nb::object progress) {
@@ -167,7 +131,7 @@ nb::tuple measure(OpenDevice& open, Matrix<const double, 2> points, std::array<d
 } // namespace
 
 void bind_inspect(nb::module_& module) {
-    module.def("list_columns", &describe_columns, nb::arg("photons"),
+    module.def("list_columns", &describe_columns, "photons"_a,
                "Every column a view can plot: name, label, period, discrete, needs_paths, missing.");
     module.def(
         "find_column",
@@ -176,27 +140,19 @@ void bind_inspect(nb::module_& module) {
                 return find_column(open.device, photons, name, asked);
             }));
         },
-        nb::arg("device"), nb::arg("photons"), nb::arg("name"), nb::arg("progress").none() = nb::none(),
+        "device"_a, "photons"_a, "name"_a, "progress"_a = nb::none(),
         "One column: name, label, values (n,), low, high, period, discrete.");
-    module.def("count_column", &count, nb::arg("values"), nb::arg("bins"), nb::arg("range").none(), nb::arg("bounds"),
+    module.def("count_column", &count, "values"_a, "bins"_a, "range"_a.none(), "bounds"_a,
                "Histogram of values (n,): counts, edges, cdf, below, above, non_finite; bounds stand in for no range.");
     module.def(
         "find_quantile",
         [](const Matrix1& values, double share) { return find_quantile({values.data(), values.size()}, share); },
-        nb::arg("values"), nb::arg("share"), "The value that a share of the finite ones lie below.");
-    module.def(
-        "find_share_above",
-        [](const Matrix1& values, double threshold) {
-            return find_share_above({values.data(), values.size()}, threshold);
-        },
-        nb::arg("values"), nb::arg("threshold"), "Share of the finite values above a threshold.");
-    module.def("look_through_loupe", &look, nb::arg("device"), nb::arg("photons"), nb::arg("query"),
-               nb::arg("progress").none() = nb::none(),
+        "values"_a, "share"_a, "The value that a share of the finite ones lie below.");
+    module.def("look_through_loupe", &look, "device"_a, "photons"_a, "query"_a, "progress"_a = nb::none(),
                "What a loupe shows; query: point, normal, photon, k, space, beta, center, low, high.");
-    module.def("read_path_lines", &list_lines, nb::arg("photons"), nb::arg("ids"),
+    module.def("read_path_lines", &list_lines, "photons"_a, "ids"_a,
                "(vertices (m, 3), interactions (m,)) of each photon's path.");
-    module.def("measure_spectrum", &measure, nb::arg("device"), nb::arg("points"), nb::arg("radius"),
-               nb::arg("progress").none() = nb::none(),
+    module.def("measure_spectrum", &measure, "device"_a, "points"_a, "radius"_a, "progress"_a = nb::none(),
                "Frequencies (m, 2) of a half plane up to `radius` cycles over the sides, and the power (m,) of points "
                "(n, 2) in sides.");
 }

@@ -16,12 +16,10 @@ namespace {
 using namespace inspect;
 
 nb::dict describe_cells(CellImage cells, Image painted) {
-    nb::dict row;
-    row["pixels"] = own_pixels(std::move(painted.rgb), cells.height, cells.width);
-    row["ids"] = own_array(std::move(cells.ids), cells.width);
-    row["depth"] = own_array(std::move(cells.depth), cells.width);
-    row["borders"] = own_array(std::move(cells.is_border), cells.width);
-    return row;
+    return make_row("pixels"_a = own_pixels(std::move(painted.rgb), cells.height, cells.width),
+                    "ids"_a = own_array(std::move(cells.ids), cells.width),
+                    "depth"_a = own_array(std::move(cells.depth), cells.width),
+                    "borders"_a = own_array(std::move(cells.is_border), cells.width));
 }
 
 // What of a view Python says; read before the GIL is given up.
@@ -39,7 +37,7 @@ ViewAsked read_view(const nb::dict& given) {
 SurfaceView see(OpenDevice& open, const Scene& scene, const ViewAsked& asked, const Progress& progress) {
     const Camera camera = find_camera(scene, asked.camera);
     return see_surfaces(open.device, scene, *open.workbench.find_buffers(scene),
-                        frame_camera(scene, camera, asked.settings.width, asked.settings.height), asked.settings,
+                        frame_camera(scene.origin, camera, asked.settings.width, asked.settings.height), asked.settings,
                         progress);
 }
 
@@ -77,16 +75,14 @@ nb::dict find_voronoi(OpenDevice& open, Photons& photons, const Scene& scene, co
 }
 
 nb::list describe_boxes(const std::vector<NodeBox>& boxes, const std::array<double, 3>& origin) {
-    nb::list rows;
-    for (const NodeBox& box : boxes) {
+    return list_rows(boxes, [&](const NodeBox& box) {
         std::array<double, 6> corners{};
         for (int axis = 0; axis < 3; ++axis) {
             corners[axis] = box.low[axis] + origin[axis];
             corners[axis + 3] = box.high[axis] + origin[axis];
         }
-        rows.append(nb::make_tuple(box.node, box.photon_count, corners));
-    }
-    return rows;
+        return nb::make_tuple(box.node, box.photon_count, corners);
+    });
 }
 
 nb::dict find_kd(OpenDevice& open, Photons& photons, const Scene& scene, const nb::dict& given, nb::object progress) {
@@ -129,61 +125,40 @@ nb::dict plot(OpenDevice& open, Photons& photons, const nb::dict& given, std::op
         const glm::dvec2 pixel = made.frame.to_pixel(x.values[i], y.values[i]);
         pixels.insert(pixels.end(), {pixel.x, pixel.y});
     }
-    nb::dict row;
-    row["rgba"] = own_array(std::move(made.rgba), 4);
-    row["pixels"] = own_array(std::move(pixels), 2);
-    row["x_label"] = x.label;
-    row["y_label"] = y.label;
-    row["x_range"] = made.frame.x_range();
-    row["y_range"] = made.frame.y_range();
-    row["drawn"] = made.drawn_count;
-    row["dense"] = made.is_dense;
-    row["to_data"] = nb::cpp_function([frame = made.frame](double column, double row_down) {
+    const nb::object to_data = nb::cpp_function([frame = made.frame](double column, double row_down) {
         const glm::dvec2 data = frame.to_data({column, row_down});
         return std::pair(data.x, data.y);
     });
-    return row;
-}
-
-using Pixels = nb::ndarray<nb::numpy, const float, nb::shape<-1, -1, 3>, nb::c_contig>;
-
-Image take_image(const Pixels& pixels) {
-    return {static_cast<std::uint32_t>(pixels.shape(1)),
-            static_cast<std::uint32_t>(pixels.shape(0)),
-            std::vector<float>(pixels.data(), pixels.data() + pixels.size()),
-            {}};
+    return make_row("rgba"_a = own_array(std::move(made.rgba), 4), "pixels"_a = own_array(std::move(pixels), 2),
+                    "x_label"_a = x.label, "y_label"_a = y.label, "x_range"_a = made.frame.x_range(),
+                    "y_range"_a = made.frame.y_range(), "drawn"_a = made.drawn_count, "dense"_a = made.is_dense,
+                    "to_data"_a = to_data);
 }
 
 nb::dict map_errors(const Pixels& a, const Pixels& b, bool is_relative, float full) {
     ErrorMap map = measure_errors(take_image(a), take_image(b));
-    nb::dict row;
-    row["pixels"] = own_pixels(std::move(paint_errors(map, is_relative, full).rgb), map.height, map.width);
-    row["rmse"] = map.rmse;
-    row["relmse"] = map.relmse;
-    row["absolute"] = own_array(std::move(map.absolute), map.width);
-    row["relative"] = own_array(std::move(map.relative), map.width);
-    return row;
+    return make_row("pixels"_a = own_pixels(std::move(paint_errors(map, is_relative, full).rgb), map.height, map.width),
+                    "rmse"_a = map.rmse, "relmse"_a = map.relmse,
+                    "absolute"_a = own_array(std::move(map.absolute), map.width),
+                    "relative"_a = own_array(std::move(map.relative), map.width));
 }
 
 } // namespace
 
 void bind_inspect_images(nb::module_& module) {
-    module.def("see_surfaces", &describe_surfaces, nb::arg("device"), nb::arg("scene"), nb::arg("settings"),
-               nb::arg("progress").none() = nb::none(),
+    module.def("see_surfaces", &describe_surfaces, "device"_a, "scene"_a, "settings"_a, "progress"_a = nb::none(),
                "(points and depth (p, 4), normals (p, 3), objects (p,)) by pixel; settings: camera, width, height, "
                "through_glass.");
-    module.def("find_voronoi_cells", &find_voronoi, nb::arg("device"), nb::arg("photons"), nb::arg("scene"),
-               nb::arg("settings"), nb::arg("progress").none() = nb::none(),
+    module.def("find_voronoi_cells", &find_voronoi, "device"_a, "photons"_a, "scene"_a, "settings"_a,
+               "progress"_a = nb::none(),
                "ids, depth, borders (h, w), pixels (h, w, 3); settings: camera, width, height, through_glass, "
                "flatness, color.");
-    module.def("find_kd_cells", &find_kd, nb::arg("device"), nb::arg("photons"), nb::arg("scene"), nb::arg("settings"),
-               nb::arg("progress").none() = nb::none(),
+    module.def("find_kd_cells", &find_kd, "device"_a, "photons"_a, "scene"_a, "settings"_a, "progress"_a = nb::none(),
                "The same with nodes for ids, and boxes (node, photons, corners); settings: camera, width, height, "
                "through_glass, depth.");
-    module.def("plot_scatter", &plot, nb::arg("device"), nb::arg("photons"), nb::arg("settings"),
-               nb::arg("selection").none(),
+    module.def("plot_scatter", &plot, "device"_a, "photons"_a, "settings"_a, "selection"_a.none(),
                "A scatter plot; settings: x, y, width, height, polar, color, x_range, y_range, dense_from.");
-    module.def("map_errors", &map_errors, nb::arg("image"), nb::arg("reference"), nb::arg("relative"), nb::arg("full"),
+    module.def("map_errors", &map_errors, "image"_a, "reference"_a, "relative"_a, "full"_a,
                "Errors by pixel: pixels (h, w, 3), absolute, relative (h, w), rmse, relmse.");
 }
 

@@ -2,8 +2,6 @@
 // Binds the parallel coordinates of engine/inspect: a figure, with what was computed for it as arrays.
 #include "binding.h"
 
-#include <nanobind/stl/pair.h>
-
 #include "inspect/parallel_figure.h"
 
 namespace photonloupe::bindings {
@@ -28,7 +26,7 @@ Column read_column(const nb::dict& given) {
             .low = nb::cast<float>(given["low"]),
             .high = nb::cast<float>(given["high"]),
             .period = nb::cast<float>(given["period"]),
-            .is_discrete = nb::cast<bool>(given["is_discrete"])};
+            .is_discrete = nb::cast<bool>(given["discrete"])};
 }
 
 Axis read_axis(const nb::dict& given, std::size_t column) {
@@ -137,10 +135,10 @@ void bind_parallel_coordinates(nb::module_& module) {
             [](const OpenFigure& open, const std::string& path) {
                 write_parallel_svg(path, open.figure, open.columns);
             },
-            nb::arg("path"));
-    module.def("make_parallel_figure", &make, nb::arg("device"), nb::arg("axes"), nb::arg("focus"),
-               nb::arg("color").none(), nb::arg("colors"), nb::arg("settings"),
-               "Axes: name, label, values, low, high, period, is_discrete, flipped, closed, periods, brush each. "
+            "path"_a);
+    module.def("make_parallel_figure", &make, "device"_a, "axes"_a, "focus"_a, "color"_a.none(), "colors"_a,
+               "settings"_a,
+               "Axes: name, label, values, low, high, period, discrete, flipped, closed, periods, brush each. "
                "Settings: size, tension, density, most_curves.");
 }
 

@@ -13,21 +13,11 @@ namespace {
 
 nb::dict describe_report(const Photons& photons) {
     const TraceReport& report = photons.report;
-    nb::dict flux;
-    flux["emitted"] = report.flux_emitted;
-    flux["deposited"] = report.flux_deposited;
-    flux["escaped"] = report.flux_escaped;
-    flux["truncated"] = report.flux_truncated;
-    nb::dict row;
-    row["emitted"] = report.emitted;
-    row["absorbed"] = report.absorbed;
-    row["escaped"] = report.escaped;
-    row["truncated"] = report.truncated;
-    row["ended_on_receiver"] = report.ended_on_receiver;
-    row["stored"] = photons.map.count;
-    row["solid_angle"] = report.solid_angle;
-    row["flux"] = flux;
-    return row;
+    const nb::dict flux = make_row("emitted"_a = report.flux_emitted, "deposited"_a = report.flux_deposited,
+                                   "escaped"_a = report.flux_escaped, "truncated"_a = report.flux_truncated);
+    return make_row("emitted"_a = report.emitted, "absorbed"_a = report.absorbed, "escaped"_a = report.escaped,
+                    "truncated"_a = report.truncated, "ended_on_receiver"_a = report.ended_on_receiver,
+                    "stored"_a = photons.map.count, "solid_angle"_a = report.solid_angle, "flux"_a = flux);
 }
 
 nb::dict describe_tree(Photons& photons, OpenDevice& open) {
@@ -39,14 +29,10 @@ nb::dict describe_tree(Photons& photons, OpenDevice& open) {
     for (const std::array<float, 6>& box : arrays.box)
         for (std::size_t i = 0; i < 6; ++i)
             boxes.push_back(static_cast<float>(box[i] + photons.map.origin[i % 3]));
-    nb::dict row;
-    row["split_axis"] = own_array(std::move(arrays.split_axis));
-    row["split_value"] = own_array(std::move(arrays.split_value));
-    row["first"] = own_array(std::move(arrays.first));
-    row["count"] = own_array(std::move(arrays.count));
-    row["box"] = own_array(std::move(boxes), 6);
-    row["order"] = own_array(std::move(arrays.order));
-    return row;
+    return make_row("split_axis"_a = own_array(std::move(arrays.split_axis)),
+                    "split_value"_a = own_array(std::move(arrays.split_value)),
+                    "first"_a = own_array(std::move(arrays.first)), "count"_a = own_array(std::move(arrays.count)),
+                    "box"_a = own_array(std::move(boxes), 6), "order"_a = own_array(std::move(arrays.order)));
 }
 
 using Axes = std::vector<std::tuple<std::string, double, double, double>>; // name, low, high, period
@@ -170,37 +156,37 @@ void bind_photons(nb::module_& module) {
         .def_prop_ro("emitted", [](const Photons& photons) { return photons.report.emitted; })
         .def_prop_ro("report", &describe_report)
         .def_prop_ro("axes", &list_axes, "Of the parameters: name, low, high, and a period, 0 where it does not wrap.")
-        .def("tree", &describe_tree, nb::arg("device"));
+        .def("tree", &describe_tree, "device"_a);
     bind_columns(type);
-    module.def("photons_from_columns", &make_photons, nb::arg("device"), nb::arg("columns"), nb::arg("axes"),
-               nb::arg("origin"), nb::arg("emitted"), nb::keep_alive<0, 1>(),
+    module.def("photons_from_columns", &make_photons, "device"_a, "columns"_a, "axes"_a, "origin"_a, "emitted"_a,
+               nb::keep_alive<0, 1>(),
                "Upload checked columns as a photon map; axes as of its parameters, origin: store and emission where "
                "they are known.");
     module.def(
-        "share_photons", [](OpenDevice&, const Photons& photons) { return share_photons(photons); }, nb::arg("device"),
-        nb::arg("photons"), nb::keep_alive<0, 1>(), nb::call_guard<nb::gil_scoped_release>(),
+        "share_photons", [](OpenDevice&, const Photons& photons) { return share_photons(photons); }, "device"_a,
+        "photons"_a, nb::keep_alive<0, 1>(), nb::call_guard<nb::gil_scoped_release>(),
         "The same photons in the same memory, with parameters of their own.");
     module.def(
         "select_photons",
         [](OpenDevice& open, const Photons& photons, const Ids& ids) {
             return select_photons(open.device, photons, {ids.data(), ids.size()});
         },
-        nb::arg("device"), nb::arg("photons"), nb::arg("ids"), nb::keep_alive<0, 1>(),
-        nb::call_guard<nb::gil_scoped_release>(), "Some photons, all columns.");
+        "device"_a, "photons"_a, "ids"_a, nb::keep_alive<0, 1>(), nb::call_guard<nb::gil_scoped_release>(),
+        "Some photons, all columns.");
     module.def(
         "find_signature",
         [](const Photons& photons, const std::vector<std::uint8_t>& interactions) {
             return own_array(inspect::find_signature(photons.map, interactions));
         },
-        nb::arg("photons"), nb::arg("interactions"),
+        "photons"_a, "interactions"_a,
         "Ids of the photons whose paths, which the map must have, went through just these.");
     module.def(
-        "find_neighbors", &find_near, nb::arg("device"), nb::arg("photons"), nb::arg("points").none(),
-        nb::arg("ids").none(), nb::arg("k"), nb::arg("query"), nb::arg("progress").none() = nb::none(),
+        "find_neighbors", &find_near, "device"_a, "photons"_a, "points"_a.none(), "ids"_a.none(), "k"_a, "query"_a,
+        "progress"_a = nb::none(),
         "The k nearest photons of points, or of photons by id (n,); exactly one is not None. query: space, beta, "
         "center, low, high.");
-    module.def("set_parameters", &give_parameters, nb::arg("device"), nb::arg("photons"), nb::arg("values"),
-               nb::arg("axes"), "Replace a map's parameters (n, m).");
+    module.def("set_parameters", &give_parameters, "device"_a, "photons"_a, "values"_a, "axes"_a,
+               "Replace a map's parameters (n, m).");
 }
 
 } // namespace photonloupe::bindings

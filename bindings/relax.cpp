@@ -10,15 +10,9 @@ namespace photonloupe::bindings {
 namespace {
 
 nb::dict describe_step(const StepReport& report) {
-    nb::dict row;
-    row["step"] = report.step;
-    row["tau"] = report.tau;
-    row["mean_move"] = report.mean_move;
-    row["largest_move"] = report.largest_move;
-    row["mean_pressure"] = report.mean_pressure;
-    row["mean_displacement"] = report.mean_metres;
-    row["flux_drift"] = report.flux_drift;
-    return row;
+    return make_row("step"_a = report.step, "tau"_a = report.tau, "mean_move"_a = report.mean_move,
+                    "largest_move"_a = report.largest_move, "mean_pressure"_a = report.mean_pressure,
+                    "mean_displacement"_a = report.mean_metres, "flux_drift"_a = report.flux_drift);
 }
 
 using FoundBeta = std::optional<std::tuple<double, double, nb::ndarray<nb::numpy, float>>>;
@@ -57,20 +51,14 @@ nb::tuple relax(OpenDevice& open, Photons& photons, nb::object scene, const nb::
 
 nb::dict describe_relaxation(const RelaxedRun& run) {
     RelaxSettings settings = run.settings;
-    nb::list steps;
-    for (const StepReport& report : run.steps)
-        steps.append(describe_step(report));
-    nb::dict row;
-    row["settings"] = write_rows(list_settings(settings));
-    row["steps"] = steps;
-    row["notes"] = run.notes;
-    row["off_surface"] = run.off_surface_count;
-    return row;
+    return make_row("settings"_a = write_rows(list_settings(settings)),
+                    "steps"_a = list_rows(run.steps, &describe_step), "notes"_a = run.notes,
+                    "off_surface"_a = run.off_surface_count);
 }
 
 void bind_relax(nb::module_& module) {
     nb::class_<OpenRelaxation>(module, "Relaxation")
-        .def("step", &step, nb::arg("progress").none() = nb::none(), "One step; what it did.")
+        .def("step", &step, "progress"_a = nb::none(), "One step; what it did.")
         .def_prop_ro(
             "settings",
             [](const OpenRelaxation& open) {
@@ -101,17 +89,16 @@ void bind_relax(nb::module_& module) {
                 return std::nullopt;
             return std::tuple(found->beta, found->threshold, own_array(std::move(found->isotropy)));
         },
-        nb::arg("device"), nb::arg("photons"), nb::arg("k"), nb::arg("clip"), nb::arg("progress").none() = nb::none(),
+        "device"_a, "photons"_a, "k"_a, "clip"_a, "progress"_a = nb::none(),
         "β, t_β and the axis ratios (n,) they come from; None: no photon has one.");
     module.def(
-        "explain_no_ratio", [](const Photons& photons) { return explain_no_ratio(photons.map); }, nb::arg("photons"),
+        "explain_no_ratio", [](const Photons& photons) { return explain_no_ratio(photons.map); }, "photons"_a,
         "Why β cannot be found, and what to do.");
     module.def(
-        "relax_photons", &relax, nb::arg("device"), nb::arg("photons"), nb::arg("scene").none(), nb::arg("settings"),
-        nb::arg("progress").none() = nb::none(),
+        "relax_photons", &relax, "device"_a, "photons"_a, "scene"_a.none(), "settings"_a, "progress"_a = nb::none(),
         "All steps of a relaxation: the map, and settings, steps, notes, off_surface; settings as start_relaxation.");
-    module.def("start_relaxation", &start, nb::arg("device"), nb::arg("photons"), nb::arg("scene").none(),
-               nb::arg("settings"), nb::arg("progress").none() = nb::none(), nb::keep_alive<0, 1>(),
+    module.def("start_relaxation", &start, "device"_a, "photons"_a, "scene"_a.none(), "settings"_a,
+               "progress"_a = nb::none(), nb::keep_alive<0, 1>(),
                "Measure the constraint and stand ready; settings as describe_settings(\"relax\") has them.");
 }
 

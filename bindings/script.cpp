@@ -24,42 +24,27 @@ void make_script(BoundScript* self, nb::bytes text, const std::string& name) {
 
 nb::list list_diagnostics(const BoundScript& self) {
     const script::Source& source = self.compiled->program.source;
-    nb::list rows;
-    for (const script::Diagnostic& diagnostic : self.compiled->diagnostics) {
+    return list_rows(self.compiled->diagnostics, [&](const script::Diagnostic& diagnostic) {
         const script::Place start = source.find_place(diagnostic.span.begin);
         const script::Place end = source.find_place(diagnostic.span.end);
-        nb::dict row;
-        row["code"] = diagnostic.code;
-        row["severity"] = diagnostic.severity == script::Severity::error ? "error" : "warning";
-        row["message"] = diagnostic.message;
-        row["note"] = diagnostic.note;
-        row["line"] = start.line;
-        row["column"] = start.column;
-        row["end_line"] = end.line;
-        row["end_column"] = end.column;
         std::string text = script::format_diagnostic(source, diagnostic);
         while (!text.empty() && text.back() == '\n')
             text.pop_back();
-        row["text"] = text;
-        rows.append(row);
-    }
-    return rows;
+        return make_row("code"_a = diagnostic.code,
+                        "severity"_a = diagnostic.severity == script::Severity::error ? "error" : "warning",
+                        "message"_a = diagnostic.message, "note"_a = diagnostic.note, "line"_a = start.line,
+                        "column"_a = start.column, "end_line"_a = end.line, "end_column"_a = end.column,
+                        "text"_a = text);
+    });
 }
 
 nb::list list_exposed(const BoundScript& self) {
-    nb::list rows;
-    for (const std::uint32_t index : self.compiled->program.exposed) {
+    return list_rows(self.compiled->program.exposed, [&](const std::uint32_t index) {
         const script::Variable& variable = self.compiled->program.variables[index];
-        nb::dict row;
-        row["name"] = variable.name;
-        row["low"] = variable.exposed->low;
-        row["high"] = variable.exposed->high;
-        row["step"] = variable.exposed->step;
-        row["integer"] = variable.exposed->is_integer;
-        row["default"] = variable.default_value;
-        rows.append(row);
-    }
-    return rows;
+        return make_row("name"_a = variable.name, "low"_a = variable.exposed->low, "high"_a = variable.exposed->high,
+                        "step"_a = variable.exposed->step, "integer"_a = variable.exposed->is_integer,
+                        "default"_a = variable.default_value);
+    });
 }
 
 const char* name_role(script::Role role) {
@@ -89,25 +74,18 @@ const char* name_space(script::NeighborQuery::Space space) {
 
 nb::list list_passes(const BoundScript& self) {
     const script::Program& program = self.compiled->program;
-    nb::list rows;
-    for (const script::PhotonLoop& loop : self.compiled->plan.loops) {
-        nb::dict row, reductions;
-        nb::list reasons, queries;
-        for (const script::Diagnostic& reason : loop.reasons)
-            reasons.append(reason.message);
+    return list_rows(self.compiled->plan.loops, [&](const script::PhotonLoop& loop) {
+        nb::dict reductions;
         for (const auto& [variable, use] : loop.variables)
             if (*name_role(use.role))
                 reductions[nb::str(program.variables[variable].name.c_str())] = name_role(use.role);
-        for (const script::NeighborQuery& query : loop.queries)
-            queries.append(name_space(query.space));
-        row["line"] = program.source.find_place(loop.statement->span.begin).line;
-        row["kind"] = loop.is_parallel ? "parallel" : "serial";
-        row["reasons"] = reasons;
-        row["reductions"] = reductions;
-        row["queries"] = queries;
-        rows.append(row);
-    }
-    return rows;
+        return make_row("line"_a = program.source.find_place(loop.statement->span.begin).line,
+                        "kind"_a = loop.is_parallel ? "parallel" : "serial",
+                        "reasons"_a = list_rows(loop.reasons, [](const auto& reason) { return reason.message; }),
+                        "reductions"_a = reductions, "queries"_a = list_rows(loop.queries, [](const auto& query) {
+                                                         return name_space(query.space);
+                                                     }));
+    });
 }
 
 nb::list list_glsl(const BoundScript& self) {
@@ -144,74 +122,46 @@ nb::object photon_or_none(std::uint32_t photon) {
 }
 
 nb::dict describe_count(const script::ValueCount& counted) {
-    nb::dict row;
-    row["count"] = counted.count;
-    row["first_photon"] = photon_or_none(counted.first_photon);
-    return row;
+    return make_row("count"_a = counted.count, "first_photon"_a = photon_or_none(counted.first_photon));
 }
 
 nb::dict describe_report(const BoundScript& self, const script::ScriptRun& run) {
     const script::Source& source = self.compiled->program.source;
-    nb::list passes, faults;
-    for (const script::LoopReport& loop : run.loops) {
-        nb::dict row;
-        row["line"] = source.find_place(loop.loop.begin).line;
-        row["kind"] = loop.is_parallel ? "parallel" : "serial";
-        row["runs"] = loop.runs;
-        row["milliseconds"] = loop.milliseconds;
-        row["exhausted"] = loop.exhausted;
-        row["first_exhausted"] = photon_or_none(loop.first_exhausted);
-        row["exhausted_line"] = loop.exhausted ? nb::cast(source.find_place(loop.exhausted_at.begin).line) : nb::none();
-        row["stopped"] = loop.stopped;
-        passes.append(row);
-    }
-    for (const script::FaultReport& fault : run.faults) {
+    const nb::list passes = list_rows(run.loops, [&](const script::LoopReport& loop) {
+        return make_row("line"_a = source.find_place(loop.loop.begin).line,
+                        "kind"_a = loop.is_parallel ? "parallel" : "serial", "runs"_a = loop.runs,
+                        "milliseconds"_a = loop.milliseconds, "exhausted"_a = loop.exhausted,
+                        "first_exhausted"_a = photon_or_none(loop.first_exhausted),
+                        "exhausted_line"_a =
+                            loop.exhausted ? nb::cast(source.find_place(loop.exhausted_at.begin).line) : nb::none(),
+                        "stopped"_a = loop.stopped);
+    });
+    const nb::list faults = list_rows(run.faults, [&](const script::FaultReport& fault) {
         const script::Place place = source.find_place(fault.site.span.begin);
-        nb::dict row;
-        row["line"] = place.line;
-        row["column"] = place.column;
-        row["what"] = script::describe_fault(fault.site.kind);
-        row["first_photon"] = photon_or_none(fault.first_photon);
-        row["count"] = fault.count;
-        faults.append(row);
-    }
+        return make_row("line"_a = place.line, "column"_a = place.column,
+                        "what"_a = script::describe_fault(fault.site.kind),
+                        "first_photon"_a = photon_or_none(fault.first_photon), "count"_a = fault.count);
+    });
     nb::dict parameters;
     for (const script::ParameterResult& parameter : run.parameters) {
-        nb::dict row;
-        row["line"] = parameter.line;
-        row["unset"] = describe_count(parameter.unset);
-        row["out_of_bounds"] = describe_count(parameter.out_of_bounds);
-        row["non_finite"] = describe_count(parameter.non_finite);
-        parameters[nb::str(parameter.declared.name.c_str())] = row;
+        parameters[nb::str(parameter.declared.name.c_str())] =
+            make_row("line"_a = parameter.line, "unset"_a = describe_count(parameter.unset),
+                     "out_of_bounds"_a = describe_count(parameter.out_of_bounds),
+                     "non_finite"_a = describe_count(parameter.non_finite));
     }
-    nb::dict report;
-    report["passes"] = passes;
-    report["faults"] = faults;
-    report["parameters"] = parameters;
-    report["columns"] = script::list_columns(self.compiled->program);
-    report["stopped"] = run.stopped;
-    return report;
+    return make_row("passes"_a = passes, "faults"_a = faults, "parameters"_a = parameters,
+                    "columns"_a = script::list_columns(self.compiled->program), "stopped"_a = run.stopped);
 }
 
 nb::dict describe_run(const BoundScript& self, const script::ScriptRun& run) {
-    nb::dict result;
-    result["report"] = describe_report(self, run);
-    nb::list histograms;
-    for (const script::HistogramCounts& histogram : run.histograms) {
-        nb::dict row;
-        row["name"] = histogram.name;
-        row["low"] = histogram.low;
-        row["high"] = histogram.high;
-        row["counts"] = own_array(std::vector<std::uint32_t>(histogram.counts));
-        row["below"] = histogram.below;
-        row["above"] = histogram.above;
-        row["non_finite"] = histogram.non_finite;
-        histograms.append(row);
-    }
-    result["histograms"] = histograms;
-    result["prints"] = run.prints;
-    result["exposed"] = run.exposed;
-    return result;
+    const nb::list histograms = list_rows(run.histograms, [](const script::HistogramCounts& histogram) {
+        return make_row("name"_a = histogram.name, "low"_a = histogram.low, "high"_a = histogram.high,
+                        "counts"_a = own_array(std::vector<std::uint32_t>(histogram.counts)),
+                        "below"_a = histogram.below, "above"_a = histogram.above,
+                        "non_finite"_a = histogram.non_finite);
+    });
+    return make_row("report"_a = describe_report(self, run), "histograms"_a = histograms, "prints"_a = run.prints,
+                    "exposed"_a = run.exposed);
 }
 
 nb::dict run(BoundScript& self, OpenDevice& open, Photons& photons, const nb::dict& given, nb::object progress) {
@@ -224,34 +174,23 @@ nb::dict run(BoundScript& self, OpenDevice& open, Photons& photons, const nb::di
 }
 
 nb::list list_builtins() {
-    nb::list rows;
-    for (const script::Builtin& builtin : script::list_builtins()) {
-        nb::dict row;
-        row["name"] = std::string(builtin.name);
-        row["signature"] = std::string(builtin.signature);
-        row["group"] = std::string(builtin.group);
-        row["doc"] = std::string(builtin.doc);
-        rows.append(row);
-    }
-    return rows;
+    return list_rows(script::list_builtins(), [](const script::Builtin& builtin) {
+        return make_row("name"_a = builtin.name, "signature"_a = builtin.signature, "group"_a = builtin.group,
+                        "doc"_a = builtin.doc);
+    });
 }
 
 nb::list list_codes() {
-    nb::list rows;
-    for (const script::DiagnosticCode& code : script::list_diagnostic_codes()) {
-        nb::dict row;
-        row["code"] = std::string(code.code);
-        row["meaning"] = std::string(code.meaning);
-        rows.append(row);
-    }
-    return rows;
+    return list_rows(script::list_diagnostic_codes(), [](const script::DiagnosticCode& code) {
+        return make_row("code"_a = code.code, "meaning"_a = code.meaning);
+    });
 }
 
 } // namespace
 
 void bind_script(nb::module_& module) {
     nb::class_<BoundScript>(module, "Script")
-        .def("__init__", &make_script, nb::arg("text"), nb::arg("name"))
+        .def("__init__", &make_script, "text"_a, "name"_a)
         .def_prop_ro("hash", [](const BoundScript& self) { return self.hash; })
         .def_prop_ro("diagnostics", &list_diagnostics)
         .def_prop_ro("exposed", &list_exposed)
@@ -259,8 +198,7 @@ void bind_script(nb::module_& module) {
         .def_prop_ro("passes", &list_passes)
         .def("glsl", &list_glsl, "The text of every compute pass.")
         .def("spirv", &list_spirv, "Every compute pass as SPIR-V.")
-        .def("run", &run, nb::arg("device"), nb::arg("photons"), nb::arg("settings"),
-             nb::arg("progress").none() = nb::none(),
+        .def("run", &run, "device"_a, "photons"_a, "settings"_a, "progress"_a = nb::none(),
              "Run over a map; settings: values, keep, seed, fuel, exhausted, seconds.");
     module.def("list_script_builtins", &list_builtins, "Every predefined call: name, signature, group, doc.");
     module.def("list_script_codes", &list_codes, "Every diagnostic code with its meaning.");

@@ -37,27 +37,14 @@ nb::object write_value(const Setting& setting) {
 
 nb::list describe_rows(const std::vector<Setting>& rows) {
     static constexpr const char* KINDS[] = {"flag", "count", "number", "numbers", "choice"};
-    nb::list list;
-    for (const Setting& setting : rows) {
+    return list_rows(rows, [](const Setting& setting) {
         const SettingInfo& about = setting.about;
-        nb::dict row;
-        row["name"] = about.name;
-        row["kind"] = KINDS[static_cast<std::size_t>(setting.kind)];
-        row["default"] = write_value(setting);
-        row["doc"] = about.doc;
-        row["low"] = about.range.low;
-        row["high"] = about.range.high;
-        row["choices"] = about.choices;
-        row["width"] = setting.width;
-        row["empty"] = about.empty;
-        row["automatic"] = about.automatic;
-        row["alias"] = about.alias;
-        row["unit"] = about.unit;
-        row["spreads"] = about.spreads;
-        row["differs"] = about.differs;
-        list.append(row);
-    }
-    return list;
+        return make_row("name"_a = about.name, "kind"_a = KINDS[static_cast<std::size_t>(setting.kind)],
+                        "default"_a = write_value(setting), "doc"_a = about.doc, "low"_a = about.range.low,
+                        "high"_a = about.range.high, "choices"_a = about.choices, "width"_a = setting.width,
+                        "empty"_a = about.empty, "automatic"_a = about.automatic, "alias"_a = about.alias,
+                        "unit"_a = about.unit, "spreads"_a = about.spreads, "differs"_a = about.differs);
+    });
 }
 
 // Hands a stage's default settings on.
@@ -97,11 +84,11 @@ void bind_settings(nb::module_& module) {
         [](const std::string& stage) {
             return with_stage(stage, [](auto settings) { return describe_rows(list_settings(settings)); });
         },
-        nb::arg("stage"), "Every setting of trace, relax, irradiance, render or loupe: name, kind, default, range …");
+        "stage"_a, "Every setting of trace, relax, irradiance, render or loupe: name, kind, default, range …");
     module.def(
         "choose_k",
         [](const Photons* photons) { return choose_k(EstimateSettings{}, photons ? photons->emission : std::nullopt); },
-        nb::arg("photons").none(), "How many photons an estimate gathers of a map where nothing is said.");
+        "photons"_a.none(), "How many photons an estimate gathers of a map where nothing is said.");
 }
 
 } // namespace photonloupe::bindings

@@ -2,8 +2,6 @@
 // Binds engine/studio: the interactive tool, its input, its pictures, and the hand-over of work.
 #include "binding.h"
 
-#include <nanobind/stl/pair.h>
-
 #include "core/cache_folder.h"
 #include "settings.h"
 #include "studio/edit_state.h"
@@ -25,15 +23,6 @@ struct FreeState {
             PyEval_RestoreThread(state);
     }
 };
-
-using Pixels = nb::ndarray<nb::numpy, const float, nb::shape<-1, -1, 3>, nb::c_contig>;
-
-Image take_image(const Pixels& pixels) {
-    return {static_cast<std::uint32_t>(pixels.shape(1)),
-            static_cast<std::uint32_t>(pixels.shape(0)),
-            std::vector<float>(pixels.data(), pixels.data() + pixels.size()),
-            {}};
-}
 
 // Python's part of the work, from any thread; what it raises is said by the interface.
 class PythonHost {
@@ -135,12 +124,8 @@ nb::object read_selection(Studio& self) {
 }
 
 void select(Studio& self, std::optional<std::vector<std::uint32_t>> ids) {
-    Workspace& workspace = self.workspace();
-    workspace.change("select", [&](studio::StudioState& state) {
-        for (studio::AxisState& axis : state.parallel.axes)
-            axis.brushes.clear();
-        workspace.select(ids ? std::make_shared<const std::vector<std::uint32_t>>(std::move(*ids)) : nullptr);
-    });
+    studio::select_instead(self.workspace(), "select",
+                           ids ? std::make_shared<const std::vector<std::uint32_t>>(std::move(*ids)) : nullptr);
 }
 
 nb::object describe_trace(const std::optional<TraceSettings>& trace) {
@@ -155,25 +140,16 @@ nb::object describe_trace(const std::optional<TraceSettings>& trace) {
 nb::object describe_script(const studio::Made& made) {
     if (!made.script)
         return nb::none();
-    nb::dict row;
-    row["name"] = made.script_name;
-    row["hash"] = made.script_hash;
-    row["values"] = made.script->exposed;
-    row["seed"] = script::RunSettings().seed;
-    row["keep"] = false;
-    return std::move(row);
+    return make_row("name"_a = made.script_name, "hash"_a = made.script_hash, "values"_a = made.script->exposed,
+                    "seed"_a = script::RunSettings().seed, "keep"_a = false);
 }
 
 nb::dict describe_made(const Studio& self) {
     const studio::Made made = self.worker->stages().made();
-    nb::dict row;
-    row["scene"] = std::const_pointer_cast<Scene>(made.scene);
-    row["photons"] = made.photons;
-    row["trace"] = describe_trace(made.trace);
-    row["script"] = describe_script(made);
-    row["relaxed"] = made.relaxed;
-    row["relaxation"] = made.relaxed ? nb::object(describe_relaxation(made.relaxation)) : nb::none();
-    return row;
+    return make_row("scene"_a = std::const_pointer_cast<Scene>(made.scene), "photons"_a = made.photons,
+                    "trace"_a = describe_trace(made.trace), "script"_a = describe_script(made),
+                    "relaxed"_a = made.relaxed,
+                    "relaxation"_a = made.relaxed ? nb::object(describe_relaxation(made.relaxation)) : nb::none());
 }
 
 using Rendered = std::tuple<nb::ndarray<nb::numpy, float, nb::ndim<3>>, nb::dict, bool>;
@@ -281,7 +257,7 @@ void bind_state(nb::class_<Studio>& type) {
         .def("has_relaxed", [](const Studio& self) { return self.workspace().has_relaxed(); })
         .def("version", [](Studio& self) { return self.workspace().selection_version; })
         .def("selection", &read_selection)
-        .def("select", &select, nb::arg("ids").none());
+        .def("select", &select, "ids"_a.none());
 }
 
 } // namespace
@@ -305,17 +281,15 @@ void bind_studio(nb::module_& module) {
         .def("resize", &Studio::resize, nb::call_guard<nb::gil_scoped_release>())
         .def("statistics", [](Studio& self) {
             studio::FrameStatistics taken = self.take_statistics();
-            nb::dict row;
-            row["frames"] = own_array(std::move(taken.frames));
-            row["loupe"] = own_array(std::move(taken.loupe));
-            row["plots"] = own_array(std::move(taken.plots));
-            return row;
+            return make_row("frames"_a = own_array(std::move(taken.frames)),
+                            "loupe"_a = own_array(std::move(taken.loupe)),
+                            "plots"_a = own_array(std::move(taken.plots)));
         });
     bind_input(type);
     bind_work(type);
     bind_state(type);
-    module.def("open_studio", &open_studio, nb::arg("device"), nb::arg("size"), nb::arg("scale"), nb::arg("offscreen"),
-               nb::arg("threaded"), nb::arg("load_map"), nb::arg("compare"), nb::keep_alive<0, 1>(),
+    module.def("open_studio", &open_studio, "device"_a, "size"_a, "scale"_a, "offscreen"_a, "threaded"_a, "load_map"_a,
+               "compare"_a, nb::keep_alive<0, 1>(),
                "The interactive tool, in a window or without, that works in a thread or in its frames. "
                "load_map(path): the map, its scene or None, remarks. compare(pixels, path): reference, error map or "
                "None, rmse, relmse, flip, and why there is none.");

@@ -262,9 +262,6 @@ def count_column(values: Annotated[NDArray[numpy.float32], dict(shape=(None,), o
 def find_quantile(values: Annotated[NDArray[numpy.float32], dict(shape=(None,), order='C', writable=False)], share: float) -> float:
     """The value that a share of the finite ones lie below."""
 
-def find_share_above(values: Annotated[NDArray[numpy.float32], dict(shape=(None,), order='C', writable=False)], threshold: float) -> float:
-    """Share of the finite values above a threshold."""
-
 def look_through_loupe(device: Device, photons: PhotonMap, query: dict, progress: object | None = None) -> dict:
     """
     What a loupe shows; query: point, normal, photon, k, space, beta, center, low, high.
@@ -332,7 +329,7 @@ class ParallelFigure:
 
 def make_parallel_figure(device: Device, axes: list, focus: Annotated[NDArray[numpy.uint32], dict(shape=(None,), order='C', device='cpu', writable=False)], color: object | None, colors: Annotated[NDArray[numpy.float32], dict(shape=(None, 3), order='C', writable=False)], settings: dict) -> ParallelFigure:
     """
-    Axes: name, label, values, low, high, period, is_discrete, flipped, closed, periods, brush each. Settings: size, tension, density, most_curves.
+    Axes: name, label, values, low, high, period, discrete, flipped, closed, periods, brush each. Settings: size, tension, density, most_curves.
     """
 
 class Studio:

@@ -50,10 +50,6 @@ class ColumnHistogram:
         """Return the value that a share of the finite ones lie below; NaN where none is finite."""
         return float(_engine.find_quantile(self.column.values, check_number("share", share, 0.0, 1.0)))
 
-    def share_above(self, threshold: float) -> float:
-        """Return the share of the finite values above a threshold; NaN where none is finite."""
-        return float(_engine.find_share_above(self.column.values, float(threshold)))
-
 
 def histogram(
     photons: PhotonMap,

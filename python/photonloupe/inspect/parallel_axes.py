@@ -8,10 +8,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from photonloupe.checks import check_count, check_number
 from photonloupe.errors import ArgumentError
+from photonloupe.inspect.columns import Column
 from photonloupe.inspect.columns import column as compute_column
 
 if TYPE_CHECKING:
@@ -59,34 +60,16 @@ class Axis:
     brush: Sequence[tuple[float, float]] = ()
 
 
-@dataclass(frozen=True)
-class ShownColumn:
-    """A number per photon, as the engine plots it."""
-
-    name: str
-    label: str
-    values: NDArray[np.float32]
-    low: float
-    high: float
-    period: float
-    is_discrete: bool
-
-    def describe(self) -> dict[str, Any]:
-        """Turn into what the engine takes."""
-        return dict(vars(self))
-
-
-def find_column(photons: PhotonMap | Mapping[str, ArrayLike], name: str) -> ShownColumn:
+def find_column(photons: PhotonMap | Mapping[str, ArrayLike], name: str) -> Column:
     """Return the column of that name, or raise `ArgumentError` that lists those there are."""
     if isinstance(photons, Mapping):
         if name not in photons:
             raise ArgumentError(f"there is no array {name!r}; there are {', '.join(map(str, photons))}")
-        return _measure_column(name, name, photons[name])
-    found = compute_column(photons, name)
-    return ShownColumn(name, found.label, found.values, found.low, found.high, found.period, found.discrete)
+        return _measure_column(name, photons[name])
+    return compute_column(photons, name)
 
 
-def _measure_column(name: str, label: str, given: ArrayLike) -> ShownColumn:
+def _measure_column(name: str, given: ArrayLike) -> Column:
     array = np.asarray(given)
     if array.ndim != 1 or array.dtype.kind not in "fiub":
         raise ArgumentError(f"{name} must be numbers of shape (n,), not {array.dtype} {array.shape}")
@@ -96,10 +79,10 @@ def _measure_column(name: str, label: str, given: ArrayLike) -> ShownColumn:
     low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 0.0)
     is_whole = bool(len(finite)) and bool(np.all(finite == np.floor(finite)))
     is_discrete = is_whole and len(np.unique(finite)) <= MOST_DISTINCT
-    return ShownColumn(name, label, values, low, high, 0.0, is_discrete)
+    return Column(name, name, values, low, high, 0.0, is_discrete)
 
 
-def complete_axis(axis: Axis, column: ShownColumn, closed: bool) -> Axis:
+def complete_axis(axis: Axis, column: Column, closed: bool) -> Axis:
     """Return `axis` with limits and form filled in, or raise `ArgumentError` that names it."""
     where = f"axis {axis.name}"
     low = column.low if axis.low is None else check_number(f"{where}: low", axis.low, -_LARGEST, _LARGEST)
@@ -123,9 +106,3 @@ def check_interval(where: str, interval: Any, is_closed: bool) -> tuple[float, f
     if low > high and not is_closed:
         raise ArgumentError(f"{where}: brush ({low:g}, {high:g}) ends before it begins; only a closed axis goes on")
     return low, high
-
-
-def describe_axis(axis: Axis) -> dict[str, Any]:
-    """Turn a completed axis into what the engine takes."""
-    names = ("low", "high", "closed", "periods", "flipped")
-    return {name: getattr(axis, name) for name in names} | {"brush": list(axis.brush)}
