@@ -7,7 +7,6 @@
 
 #include <array>
 #include <concepts>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <type_traits>

@@ -2,8 +2,6 @@
 // Builds the kd-tree on the device, a level after the other: large nodes by several subgroups each, then a subgroup a
 // node, then an invocation a node.
 #include <algorithm>
-#include <bit>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>

@@ -3,8 +3,8 @@
 // one, each going on where the dispatch before stopped until it is done.
 #pragma once
 
-#include "photons/limits.h"
 #include "photons/neighborhood.h"
+#include "photons/search_space.h"
 
 namespace photonloupe {
 

@@ -3,38 +3,21 @@
 #include "photons/neighbor_queries.h"
 
 #include <bit>
-#include <cmath>
 
 #include <glm/common.hpp>
+
+#include "photons/select_photons.h"
 
 namespace photonloupe {
 namespace {
 
 constexpr std::uint32_t NOBODY = 0xffffffffu;
-// Below this share of the map photons are read one by one where memory is shared.
-constexpr std::uint64_t FEW_DIVISOR = 16;
 
 std::uint32_t spread_bits(std::uint32_t x) {
     x = (x | x << 16) & 0x030000ffu;
     x = (x | x << 8) & 0x0300f00fu;
     x = (x | x << 4) & 0x030c30c3u;
     return (x | x << 2) & 0x09249249u;
-}
-
-// `width` vec4s of each id.
-std::vector<glm::vec4> read_rows_of(const gpu::Buffer& buffer, std::uint64_t count, std::uint32_t width,
-                                    std::span<const std::uint32_t> ids) {
-    std::vector<glm::vec4> rows(ids.size() * width);
-    if (buffer.mapped() && ids.size() * FEW_DIVISOR < count) {
-        for (std::size_t i = 0; i < ids.size(); ++i)
-            buffer.download(&rows[i * width], width * sizeof(glm::vec4),
-                            std::uint64_t{ids[i]} * width * sizeof(glm::vec4));
-        return rows;
-    }
-    const std::vector<glm::vec4> all = buffer.read<glm::vec4>(count * width);
-    for (std::size_t i = 0; i < ids.size(); ++i)
-        std::copy_n(&all[std::size_t{ids[i]} * width], width, &rows[i * width]);
-    return rows;
 }
 
 // What decides about the order: the place, or where there is only a row the first parameters.
@@ -69,7 +52,7 @@ NeighborQueries ask_about(const PhotonMap& photons, std::span<const std::uint32_
             throw Error("photon id " + std::to_string(ids[row]) + " at row " + std::to_string(row) +
                         " is out of range; the map has " + std::to_string(photons.count) + " photons");
     NeighborQueries queries;
-    queries.points = read_rows_of(photons.position_emitter, photons.count, 1, ids);
+    queries.points = read_rows<glm::vec4>(photons.position_emitter, photons.count, ids);
     for (std::size_t i = 0; i < ids.size(); ++i)
         queries.points[i].w = std::bit_cast<float>(ids[i]);
     return queries;
@@ -87,7 +70,7 @@ NeighborQueries ask_with_rows(const PhotonMap& photons, const ParameterRows& par
                               std::span<const std::uint32_t> ids) {
     NeighborQueries queries = ask_about(photons, ids);
     queries.row_count = parameters.rows.count_rows();
-    queries.rows = read_rows_of(parameters.rows.values, photons.count, queries.row_count, ids);
+    queries.rows = read_rows<glm::vec4>(parameters.rows.values, photons.count, ids, queries.row_count);
     return queries;
 }
 

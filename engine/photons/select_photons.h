@@ -21,6 +21,20 @@ std::vector<T> select_rows(const std::vector<T>& column, std::uint64_t photon_co
     return rows;
 }
 
+// Rows `ids` of a column of `count` rows on the device, `width` values each. Where memory is not shared one transfer is
+// quicker than hundreds.
+template <class T>
+std::vector<T> read_rows(const gpu::Buffer& column, std::uint64_t count, std::span<const std::uint32_t> ids,
+                         std::uint32_t width = 1) {
+    constexpr std::uint64_t FEW_DIVISOR = 16; // below this share of the column rows are read one by one
+    if (!column.mapped() || ids.size() * FEW_DIVISOR >= count)
+        return ids.empty() ? std::vector<T>{} : select_rows(column.read<T>(count * width), count, ids);
+    std::vector<T> rows(ids.size() * width);
+    for (std::size_t i = 0; i < ids.size(); ++i)
+        column.download(&rows[i * width], width * sizeof(T), std::uint64_t{ids[i]} * width * sizeof(T));
+    return rows;
+}
+
 PhotonMap select_photons(gpu::Device& device, const PhotonMap& map, std::span<const std::uint32_t> ids);
 
 // The paths of some of `photon_count` photons, moved by `shift`. Throws Error when they have more vertices than 32 bits

@@ -3,8 +3,6 @@
 // as its constraint allows, and stay on the surface they lie on.
 #pragma once
 
-#include <optional>
-
 #include "relax/complete_settings.h"
 #include "relax/constraint.h"
 #include "relax/relaxed_state.h"

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "photons/limits.h"
+#include "photons/search_space.h"
 #include "shared/relax.h"
 #include "trace/settings.h"
 
