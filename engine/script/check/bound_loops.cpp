@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Counts the turns of counting loops, along the nest and through calls.
-#include "script/check/bound_loops.h"
+#include "script/check/check_stages.h"
 
 #include <cmath>
 

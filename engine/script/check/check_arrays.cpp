@@ -2,7 +2,7 @@
 // Sizes of arrays, and what one photon's arrays may hold together.
 #include <cmath>
 
-#include "script/check/check_values.h"
+#include "script/check/check_stages.h"
 #include "script/check/evaluate_constant.h"
 #include "script/check/format_number.h"
 #include "script/check/walk_calls.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Definite assignment: follows control through the script, functions entered at their calls.
-#include "script/check/check_assignment.h"
+#include "script/check/check_stages.h"
 
 #include <utility>
 

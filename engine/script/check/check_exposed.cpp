@@ -2,7 +2,7 @@
 // Follows the values of variables through straight code, to find what an exposed variable holds where it is exposed.
 #include <map>
 
-#include "script/check/check_values.h"
+#include "script/check/check_stages.h"
 #include "script/check/evaluate_constant.h"
 #include "script/check/format_number.h"
 #include "script/read/diagnostic_codes.h"

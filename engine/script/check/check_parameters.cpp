@@ -4,7 +4,7 @@
 #include <set>
 
 #include "script/builtins.h"
-#include "script/check/check_values.h"
+#include "script/check/check_stages.h"
 #include "script/check/evaluate_constant.h"
 #include "script/check/walk_calls.h"
 #include "script/read/diagnostic_codes.h"

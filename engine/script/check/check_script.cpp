@@ -4,14 +4,8 @@
 
 #include <algorithm>
 
-#include "script/check/bound_loops.h"
-#include "script/check/check_assignment.h"
-#include "script/check/check_values.h"
-#include "script/check/convert_types.h"
+#include "script/check/check_stages.h"
 #include "script/check/evaluate_constant.h"
-#include "script/check/find_columns.h"
-#include "script/check/find_photon_loops.h"
-#include "script/check/infer_types.h"
 #include "script/check/tree_builder.h"
 #include "script/read/diagnostic_codes.h"
 

@@ -5,7 +5,7 @@
 
 #include "script/builtins.h"
 #include "script/check/assignments.h"
-#include "script/check/check_values.h"
+#include "script/check/check_stages.h"
 #include "script/check/variable_set.h"
 #include "script/check/walk_calls.h"
 #include "script/read/diagnostic_codes.h"

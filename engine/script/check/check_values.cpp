@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ranges of constant arguments and indices.
-#include "script/check/check_values.h"
+#include "script/check/check_stages.h"
 
 #include <cmath>
 

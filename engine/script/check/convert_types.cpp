@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Types from the leaves up, conversions where integers meet reals.
-#include "script/check/convert_types.h"
+#include "script/check/check_stages.h"
 
 #include "script/builtins.h"
-#include "script/check/infer_types.h"
 #include "script/read/diagnostic_codes.h"
 
 namespace photonloupe::script {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Collects columns over the typed tree.
-#include "script/check/find_columns.h"
+#include "script/check/check_stages.h"
 
 #include "script/builtins.h"
 #include "script/check/evaluate_constant.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Matches loops against the forms of a photon loop.
-#include "script/check/find_photon_loops.h"
+#include "script/check/check_stages.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Real numbers spread along assignments: a graph of variables, searched from those that are given a real one.
-#include "script/check/infer_types.h"
+#include "script/check/check_stages.h"
 
 #include "script/builtins.h"
 #include "script/reference_math.h"

@@ -14,59 +14,13 @@ namespace {
 constexpr std::string_view KEYWORDS[] = {"if",       "else",   "for",   "while", "do",       "break",
                                          "continue", "return", "float", "int",   "function", "expose"};
 
-// Longest first, so that the first match is the right one; C's others are read whole to be refused by name.
-struct Symbol {
-    std::string_view text;
-    TokenKind kind = TokenKind::symbol;
-};
-constexpr TokenKind UNSUPPORTED = TokenKind::unsupported;
-constexpr Symbol SYMBOLS[] = {
-    {"<<=", UNSUPPORTED},
-    {">>=", UNSUPPORTED},
-    {"<<", UNSUPPORTED},
-    {">>", UNSUPPORTED},
-    {"->", UNSUPPORTED},
-    {"&=", UNSUPPORTED},
-    {"|=", UNSUPPORTED},
-    {"^=", UNSUPPORTED},
-    {"++"},
-    {"--"},
-    {"+="},
-    {"-="},
-    {"*="},
-    {"/="},
-    {"%="},
-    {"=="},
-    {"!="},
-    {"<="},
-    {">="},
-    {"&&"},
-    {"||"},
-    {"&", UNSUPPORTED},
-    {"|", UNSUPPORTED},
-    {"^", UNSUPPORTED},
-    {"~", UNSUPPORTED},
-    {".", UNSUPPORTED},
-    {"+"},
-    {"-"},
-    {"*"},
-    {"/"},
-    {"%"},
-    {"="},
-    {"!"},
-    {"<"},
-    {">"},
-    {"?"},
-    {":"},
-    {";"},
-    {","},
-    {"("},
-    {")"},
-    {"{"},
-    {"}"},
-    {"["},
-    {"]"},
-};
+// Longest first, so that the first match is the right one.
+constexpr std::string_view SYMBOLS[] = {"<<=", ">>=", "<<", ">>", "->", "&=", "|=", "^=", "++", "--", "+=", "-=",
+                                        "*=",  "/=",  "%=", "==", "!=", "<=", ">=", "&&", "||", "&",  "|",  "^",
+                                        "~",   ".",   "+",  "-",  "*",  "/",  "%",  "=",  "!",  "<",  ">",  "?",
+                                        ":",   ";",   ",",  "(",  ")",  "{",  "}",  "[",  "]"};
+// Those of C alone: they are read whole to be refused by name.
+constexpr std::string_view UNSUPPORTED[] = {"<<=", ">>=", "<<", ">>", "->", "&=", "|=", "^=", "&", "|", "^", "~", "."};
 
 bool is_letter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
@@ -197,12 +151,14 @@ private:
     bool read_symbol() {
         const std::string_view rest = m_text.substr(m_at);
         const auto found = std::find_if(std::begin(SYMBOLS), std::end(SYMBOLS),
-                                        [&](const Symbol& symbol) { return rest.starts_with(symbol.text); });
+                                        [&](std::string_view symbol) { return rest.starts_with(symbol); });
         if (found == std::end(SYMBOLS))
             return false;
         const std::size_t begin = m_at;
-        m_at += found->text.size();
-        add(found->kind, begin);
+        m_at += found->size();
+        const bool is_known =
+            std::find(std::begin(UNSUPPORTED), std::end(UNSUPPORTED), *found) == std::end(UNSUPPORTED);
+        add(is_known ? TokenKind::symbol : TokenKind::unsupported, begin);
         return true;
     }
 
@@ -232,7 +188,7 @@ private:
     static bool is_expected(char c) {
         return c == ' ' || (c >= '\t' && c <= '\r') || is_letter(c) || is_digit(c) || c == '"' || c == '.' ||
                std::any_of(std::begin(SYMBOLS), std::end(SYMBOLS),
-                           [c](const Symbol& symbol) { return symbol.text.front() == c; });
+                           [c](std::string_view symbol) { return symbol.front() == c; });
     }
 
     // "character 'é'" or "byte 0x07".

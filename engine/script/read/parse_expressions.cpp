@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rules of expressions, from assignment (binds least) to names and numbers (bind most).
 #include <algorithm>
-#include <iterator>
+#include <span>
 
 #include "script/read/diagnostic_codes.h"
 #include "script/read/parser.h"
@@ -11,12 +11,12 @@ namespace {
 
 using Kind = SyntaxExpression::Kind;
 
-struct BinaryOperator {
+struct OperatorSymbol {
     std::string_view spelling;
     Operator operation;
-    int binding;
+    int binding = 0;
 };
-constexpr BinaryOperator BINARY[] = {
+constexpr OperatorSymbol BINARY[] = {
     {"||", Operator::logical_or, 1}, {"&&", Operator::logical_and, 2},   {"==", Operator::equal, 3},
     {"!=", Operator::not_equal, 3},  {"<", Operator::less, 4},           {"<=", Operator::less_equal, 4},
     {">", Operator::greater, 4},     {">=", Operator::greater_equal, 4}, {"+", Operator::add, 5},
@@ -24,23 +24,17 @@ constexpr BinaryOperator BINARY[] = {
     {"%", Operator::modulo, 6},
 };
 
-struct AssignmentOperator {
-    std::string_view spelling;
-    Operator operation;
-};
-constexpr AssignmentOperator ASSIGNMENT[] = {
+constexpr OperatorSymbol ASSIGNMENT[] = {
     {"=", Operator::none},      {"+=", Operator::add},    {"-=", Operator::subtract},
     {"*=", Operator::multiply}, {"/=", Operator::divide}, {"%=", Operator::modulo},
 };
 
 // The table's row for a token, or null.
-template <class Row, std::size_t N>
-const Row* find_operator(const Row (&table)[N], const Token& token) {
-    if (token.kind != TokenKind::symbol)
-        return nullptr;
-    const auto found = std::find_if(std::begin(table), std::end(table),
-                                    [&](const Row& row) { return row.spelling == token.spelling; });
-    return found == std::end(table) ? nullptr : &*found;
+const OperatorSymbol* find_operator(std::span<const OperatorSymbol> table, const Token& token) {
+    const auto found = std::find_if(table.begin(), table.end(), [&](const OperatorSymbol& row) {
+        return token.kind == TokenKind::symbol && row.spelling == token.spelling;
+    });
+    return found == table.end() ? nullptr : &*found;
 }
 
 std::vector<SyntaxExpression> gather(SyntaxExpression first, SyntaxExpression second) {
@@ -68,7 +62,7 @@ SyntaxExpression Parser::parse_expression() {
     std::vector<SyntaxExpression> targets;
     std::vector<Operator> operations;
     SyntaxExpression value = parse_conditional();
-    while (const AssignmentOperator* const found = find_operator(ASSIGNMENT, peek())) {
+    while (const OperatorSymbol* const found = find_operator(ASSIGNMENT, peek())) {
         take();
         targets.push_back(std::move(value));
         operations.push_back(found->operation);
@@ -106,7 +100,7 @@ SyntaxExpression Parser::parse_binary(int least_binding) {
             parse_unary(); // and go on as if it and its operand were not there
             continue;
         }
-        const BinaryOperator* const found = find_operator(BINARY, peek());
+        const OperatorSymbol* const found = find_operator(BINARY, peek());
         if (!found || found->binding <= least_binding)
             return left;
         take();
