@@ -17,11 +17,6 @@ std::string write_all(const Values& values) {
     return text.str();
 }
 
-template <class Settings>
-std::string write_settings(Settings settings) {
-    return write_key(list_settings(settings));
-}
-
 std::string hash_points(std::span<const glm::vec4> points) {
     return hash_bytes({reinterpret_cast<const char*>(points.data()), points.size_bytes()});
 }

@@ -176,4 +176,9 @@ void require_settings(const char* of, Settings settings) {
 // All settings in one line that differs where one of them does.
 std::string write_key(const std::vector<Setting>& settings);
 
+template <class Settings>
+std::string write_settings(Settings settings) {
+    return write_key(list_settings(settings));
+}
+
 } // namespace photonloupe

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A line for each pass, fault and parameter that has something to be told.
-#include "studio/describe_run.h"
+#include "studio/stages.h"
 
 namespace photonloupe::studio {
 namespace {

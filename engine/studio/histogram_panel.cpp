@@ -45,9 +45,8 @@ float find_threshold(const Workspace& workspace) {
 
 void HistogramPanel::update(Workspace& workspace) {
     const HistogramState& histogram = workspace.state.histogram;
-    const std::string key = histogram.column + " " + std::to_string(histogram.bins) + " " +
-                            std::to_string(workspace.results.photons_version) +
-                            std::to_string(workspace.state.view.shows_relaxed);
+    const std::string key = write_values(histogram.column, histogram.bins, workspace.results.photons_version,
+                                         workspace.state.view.shows_relaxed);
     if (key == m_key)
         return;
     m_key = key;

@@ -8,7 +8,6 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "studio/setting_rows.h"
 #include "studio/stage_choices.h"
 #include "studio/tone_map.h"
 #include "studio/widgets.h"

@@ -8,7 +8,6 @@
 
 #include "studio/edit_state.h"
 #include "studio/panels.h"
-#include "studio/setting_rows.h"
 #include "studio/widgets.h"
 
 namespace photonloupe::studio {

@@ -37,17 +37,13 @@ inspect::LoupeQuery make_query(Workspace& workspace, const Photons& photons) {
 }
 
 std::string write_key(const Workspace& workspace, const Photons* photons) {
-    LoupeState loupe = workspace.state.loupe;
-    std::string key = std::to_string(workspace.loupe_version) + " " +
-                      std::to_string(workspace.results.photons_version) + " " +
-                      std::to_string(reinterpret_cast<std::uintptr_t>(photons)) + " " +
-                      photonloupe::write_key(list_settings<inspect::LoupeSettings>(loupe)) + loupe.lock;
-    for (const double value : loupe.point)
-        key += " " + std::to_string(std::bit_cast<std::uint64_t>(value));
+    const LoupeState& loupe = workspace.state.loupe;
+    std::string key =
+        write_values(workspace.loupe_version, workspace.results.photons_version, photons,
+                     write_settings<inspect::LoupeSettings>(loupe), loupe.lock, loupe.point[0], loupe.point[1],
+                     loupe.point[2], loupe.lock == "brushes" ? workspace.selection_version : 0);
     for (const std::uint32_t pin : loupe.pins)
-        key += " " + std::to_string(pin);
-    if (loupe.lock == "brushes")
-        key += " " + std::to_string(workspace.selection_version);
+        key += write_values(pin);
     return key;
 }
 

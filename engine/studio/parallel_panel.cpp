@@ -3,7 +3,6 @@
 #include "studio/parallel_panel.h"
 
 #include <algorithm>
-#include <bit>
 #include <chrono>
 
 #include <imgui.h>
@@ -22,23 +21,15 @@ constexpr std::size_t MOST_AXES = 32; // as sessions hold
 constexpr ImU32 AXIS_COLOR = 0xffc8c8c8, DENSITY_COLOR = 0x70a0a0a0, BRUSH_COLOR = 0xa040b0ff;
 constexpr float DENSITY_WIDTH = 22;
 
-std::string write_bits(float value) {
-    return std::to_string(std::bit_cast<std::uint32_t>(value));
-}
-
 std::string write_key(const Workspace& workspace, std::uint32_t width, std::uint32_t height) {
     const ParallelState& parallel = workspace.state.parallel;
-    std::string key = std::to_string(width) + "x" + std::to_string(height) + " " +
-                      std::to_string(workspace.results.photons_version) + " " + parallel.source + " " + parallel.color +
-                      " " + std::to_string(parallel.tension) + std::to_string(workspace.state.view.shows_relaxed) +
-                      " " + std::to_string(workspace.selection_version);
-    if (parallel.source == "loupe")
-        key += " " + std::to_string(workspace.loupe_result_version);
+    std::string key = write_values(width, height, workspace.results.photons_version, parallel.source, parallel.color,
+                                   parallel.tension, workspace.state.view.shows_relaxed, workspace.selection_version,
+                                   parallel.source == "loupe" ? workspace.loupe_result_version : 0);
     for (const AxisState& axis : parallel.axes) {
-        key += "|" + axis.name + " " + write_bits(axis.low) + " " + write_bits(axis.high) + " " +
-               std::to_string(axis.is_flipped) + std::to_string(axis.is_closed) + std::to_string(axis.periods);
+        key += write_values(axis.name, axis.low, axis.high, axis.is_flipped, axis.is_closed, axis.periods);
         for (const auto& [low, high] : axis.brushes)
-            key += " " + write_bits(low) + ":" + write_bits(high);
+            key += write_values(low, high);
     }
     return key;
 }

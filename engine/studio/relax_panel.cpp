@@ -5,7 +5,6 @@
 
 #include "studio/edit_state.h"
 #include "studio/panels.h"
-#include "studio/setting_rows.h"
 #include "studio/stage_choices.h"
 #include "studio/widgets.h"
 

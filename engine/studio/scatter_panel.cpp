@@ -71,12 +71,10 @@ void ScatterPanel::update(Workspace& workspace, Plot& plot, const std::string& t
                           const std::string& y, bool is_polar, std::uint32_t width, std::uint32_t height) {
     const ScatterState& scatter = workspace.state.scatter;
     const std::string source = scatter.shows_pair ? "loupe" : scatter.source;
-    std::string key = x + "|" + y + "|" + source + std::to_string(is_polar) + std::to_string(scatter.shows_pair) + " " +
-                      std::to_string(width) + "x" + std::to_string(height) + " " +
-                      std::to_string(workspace.results.photons_version) + " " +
-                      std::to_string(workspace.selection_version) + std::to_string(workspace.state.view.shows_relaxed);
-    if (source == "loupe")
-        key += " " + std::to_string(workspace.loupe_result_version);
+    const std::string key =
+        write_values(x, y, source, is_polar, scatter.shows_pair, width, height, workspace.results.photons_version,
+                     workspace.selection_version, workspace.state.view.shows_relaxed,
+                     source == "loupe" ? workspace.loupe_result_version : 0);
     if (key == plot.key)
         return;
     plot = {};

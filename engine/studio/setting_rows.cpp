@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws settings by their kind.
-#include "studio/setting_rows.h"
+#include "studio/widgets.h"
 
 #include <algorithm>
 #include <charconv>
@@ -8,8 +8,6 @@
 #include <cstdio>
 
 #include <imgui.h>
-
-#include "studio/widgets.h"
 
 namespace photonloupe::studio::ui {
 namespace {

@@ -11,7 +11,6 @@
 #include "relax/isotropy.h"
 #include "relax/measure_evenness.h"
 #include "script/compile_script.h"
-#include "studio/describe_run.h"
 #include "studio/python_script.h"
 #include "studio/stage_choices.h"
 #include "studio/workspace.h"

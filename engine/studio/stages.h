@@ -51,6 +51,9 @@ struct Made {
 
 using Deliver = std::function<void(std::function<void(Workspace&)>)>;
 
+// What a script run gave, as the studio tells it.
+ScriptResult describe_run(const script::ScriptRun& run, const script::Source& source);
+
 // One thread works; photons that the interface shows are never changed: a script runs over others in the same memory.
 class Stages {
 public:

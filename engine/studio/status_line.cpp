@@ -9,7 +9,6 @@
 #include "studio/commands.h"
 #include "studio/menus.h"
 #include "studio/panels.h"
-#include "studio/setting_rows.h"
 #include "studio/theme.h"
 #include "studio/widgets.h"
 

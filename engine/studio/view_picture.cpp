@@ -24,14 +24,6 @@ constexpr glm::vec3 BACKGROUND(0.085f, 0.09f, 0.095f);
 constexpr std::uint32_t SMALLEST_BORDERED = 16; // pixels; smaller cells would be nothing but border
 constexpr std::uint32_t PLAIN_CELL = 0xff585450, CELL_BORDER = 0xff201c1a, NO_CELL_COLOR = 0xff18171a;
 
-std::string write_pose(const CameraPose& pose) {
-    std::string text;
-    for (const auto& values : {pose.position, pose.right, pose.up})
-        for (const double value : values)
-            text += std::to_string(std::bit_cast<std::uint64_t>(value)) + " ";
-    return text + std::to_string(pose.yfov);
-}
-
 std::uint32_t pack_hash_color(std::uint32_t id) {
     const glm::vec3 color = inspect::hash_color(id);
     return encode_srgb(color.r, 0) | encode_srgb(color.g, 0) << 8 | encode_srgb(color.b, 0) << 16 | 0xff000000u;
@@ -106,7 +98,7 @@ void ViewPicture::see(Workspace& workspace, std::uint32_t width, std::uint32_t h
         return;
     }
     const CameraPose pose = find_pose(workspace.state.view.camera);
-    const std::string key = scene->hash + write_pose(pose) + " " + std::to_string(width) + "x" + std::to_string(height);
+    const std::string key = scene->hash + write_pose(pose) + write_values(width, height);
     if (m_surface && m_surface_key == key)
         return;
     // Photons are seen through glass: it is what they came through.
@@ -182,14 +174,11 @@ void ViewPicture::update(Workspace& workspace, bool relaxed, std::uint32_t width
     m_full_width = width;
     const std::uint32_t share = is_coarse ? COARSE : 1;
     const std::uint32_t columns = std::max(width / share, 1u), rows = std::max(height / share, 1u);
-    const std::string key = camera + " " + std::to_string(columns) + "x" + std::to_string(rows) + " " +
-                            std::to_string(static_cast<int>(state.view.mode)) + " " + std::to_string(relaxed) + " " +
-                            std::to_string(workspace.results.photons_version) + " " +
-                            std::to_string(workspace.selection_version) + " " + state.view.map_column + " " +
-                            std::to_string(state.view.point_size) + " " + std::to_string(state.view.brightness) + " " +
-                            std::to_string(state.view.tree_depth) + " " +
-                            std::to_string(workspace.results.image_version) + " " + state.image.tone + " " +
-                            std::to_string(state.image.exposure);
+    const std::string key =
+        camera + write_values(columns, rows, static_cast<int>(state.view.mode), relaxed,
+                              workspace.results.photons_version, workspace.selection_version, state.view.map_column,
+                              state.view.point_size, state.view.brightness, state.view.tree_depth,
+                              workspace.results.image_version, state.image.tone, state.image.exposure);
     missing = m_missing;
     if (key == m_key)
         return;

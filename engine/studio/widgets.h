@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/settings.h"
 #include "studio/workspace.h"
 
 namespace photonloupe::studio::ui {
@@ -29,6 +30,11 @@ bool slide(Workspace& workspace, const std::string& name, const char* label, flo
            const char* format = "%.3g", bool is_logarithmic = false);
 bool slide(Workspace& workspace, const std::string& name, const char* label, std::uint32_t& value, std::uint32_t low,
            std::uint32_t high, bool is_logarithmic = false);
+
+// A widget for each setting, two beside each other, named "<panel>/<setting>". `completed` are the same settings with
+// what is automatic filled in, to be seen. Returns the name of the one that was changed now, or "".
+std::string edit_settings(Workspace& workspace, const std::string& panel, const std::vector<Setting>& settings,
+                          const std::vector<Setting>& completed);
 
 // A panel that has nothing to show says why and what to do.
 void say_empty(const std::string& text);

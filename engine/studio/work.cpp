@@ -2,42 +2,27 @@
 // Compares what the state asks for with what has been done.
 #include "studio/work.h"
 
-#include <sstream>
-
 #include "core/settings.h"
 #include "studio/stage_choices.h"
 
 namespace photonloupe::studio {
 namespace {
 
-template <class... Values>
-std::string write(const Values&... values) {
-    std::ostringstream text;
-    text << std::hexfloat;
-    ((text << values << '\n'), ...);
-    return text.str();
-}
-
-template <class Settings>
-std::string write_settings(Settings settings) {
-    return write_key(list_settings(settings));
-}
-
 std::string write_script(const ScriptState& script) {
-    std::string text = write(script.ran, script.path);
+    std::string text = write_values(script.ran, script.path);
     for (const auto& [name, value] : script.values)
-        text += write(name, value);
-    return text;
-}
-
-std::string write_pose(const CameraPose& pose) {
-    std::string text = write(pose.yfov);
-    for (const auto& vector : {pose.position, pose.target, pose.up})
-        text += write(vector[0], vector[1], vector[2]);
+        text += write_values(name, value);
     return text;
 }
 
 } // namespace
+
+std::string write_pose(const CameraPose& pose) {
+    std::string text = write_values(pose.yfov);
+    for (const auto& vector : {pose.position, pose.target, pose.up})
+        text += write_values(vector[0], vector[1], vector[2]);
+    return text;
+}
 
 std::optional<Job> plan_work(const StudioState& state, const CameraPose& camera, const Wanted& wanted,
                              const Holding& holding, const DoneWork& done) {
@@ -53,8 +38,8 @@ std::optional<Job> plan_work(const StudioState& state, const CameraPose& camera,
     if (state.trace.scene.empty() && state.trace.map.empty())
         return job;
     const bool is_traced = state.trace.map.empty();
-    const std::string traced =
-        is_traced ? write(state.trace.scene) + write_settings<TraceSettings>(state.trace) : write(state.trace.map);
+    const std::string traced = is_traced ? write_values(state.trace.scene) + write_settings<TraceSettings>(state.trace)
+                                         : write_values(state.trace.map);
     if (ask(is_traced ? "trace" : "map", traced))
         return job;
     if (!holding.photons)
@@ -63,18 +48,19 @@ std::optional<Job> plan_work(const StudioState& state, const CameraPose& camera,
     const std::string scripted = traced + (state.script.ran.empty() ? "" : write_script(state.script));
     if (ask("script", scripted))
         return job;
-    if (state.relax.is_wanted() && ask("relax", scripted + write_settings(state.relax.used) + write(state.relax.made)))
+    if (state.relax.is_wanted() &&
+        ask("relax", scripted + write_settings(state.relax.used) + write_values(state.relax.made)))
         return job;
     if (wanted.isotropy && holding.parameters && ask("isotropy", scripted))
         return job;
     if (wanted.image && holding.scene) {
         ImageState image = state.image;
-        const std::string rendered =
-            write(holding.photons_version, shows_relaxed(state)) + write_pose(camera) + write_key(list_choices(image));
+        const std::string rendered = write_values(holding.photons_version, shows_relaxed(state)) + write_pose(camera) +
+                                     write_key(list_choices(image));
         if (ask("render", rendered))
             return job;
         if (!state.image.reference.empty())
-            ask("reference", rendered + write(state.image.reference));
+            ask("reference", rendered + write_values(state.image.reference));
     }
     return job;
 }

@@ -4,11 +4,22 @@
 
 #include <map>
 #include <optional>
+#include <sstream>
 #include <string>
 
 #include "studio/camera.h"
 
 namespace photonloupe::studio {
+
+// A text that differs where one of the values does.
+template <class... Values>
+std::string write_values(const Values&... values) {
+    std::ostringstream text;
+    text << std::hexfloat;
+    ((text << values << '\n'), ...);
+    return text.str();
+}
+std::string write_pose(const CameraPose& pose);
 
 // A piece of work for whoever runs the stages: what was chosen when it was asked for.
 struct Job {
