@@ -21,10 +21,7 @@ nb::object view_rgb(nb::handle self, const gpu::Buffer& buffer, std::uint64_t co
         const std::int64_t strides[2] = {4, 1};
         return nb::cast(nb::ndarray<nb::numpy, const float>(memory, 2, shape, self, strides));
     }
-    std::vector<float> values;
-    for (const glm::vec4& packed : buffer.read<glm::vec4>(count))
-        values.insert(values.end(), {packed.x, packed.y, packed.z});
-    return nb::cast(own_array(std::move(values), 3));
+    return nb::cast(own_array(read_vectors(buffer, count), 3));
 }
 
 // The same of places, which a view has where the map's origin is the world's.

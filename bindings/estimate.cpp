@@ -16,11 +16,8 @@ nb::ndarray<nb::numpy, float> estimate(OpenDevice& open, Photons& photons, Matri
         directions[i] = {normals(i, 0), normals(i, 1), normals(i, 2), 0.0f};
     const auto settings = read_settings<EstimateSettings>(given);
     std::vector<float> rgb = PythonProgress(std::move(progress)).run([&](const Progress& asked) {
-        const gpu::Buffer irradiance = open.workbench.estimate_irradiance(photons, local, directions, settings, asked);
-        std::vector<float> values;
-        for (const glm::vec4& value : irradiance.read<glm::vec4>(local.size()))
-            values.insert(values.end(), {value.r, value.g, value.b});
-        return values;
+        return read_vectors(open.workbench.estimate_irradiance(photons, local, directions, settings, asked),
+                            local.size());
     });
     return own_array(std::move(rgb), 3);
 }

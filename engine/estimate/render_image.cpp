@@ -11,6 +11,7 @@
 #include "estimate/camera_frame.h"
 #include "estimate/plot_photons.h"
 #include "gpu/commands.h"
+#include "photons/map_columns.h"
 
 namespace photonloupe {
 namespace {
@@ -164,11 +165,7 @@ Image Renderer::run(const Progress& progress) {
         render_chunk(scratch, within);
     }
     progress.report("render", 1.0);
-    Image image{settings.width, settings.height, {}, {}};
-    image.rgb.reserve(pixels * 3);
-    for (const glm::vec4& pixel : film.read<glm::vec4>(pixels))
-        image.rgb.insert(image.rgb.end(), {pixel.r, pixel.g, pixel.b});
-    return image;
+    return {settings.width, settings.height, read_vectors(film, pixels), {}};
 }
 
 void require_request(const RenderSettings& settings, const RenderedMap* map) {

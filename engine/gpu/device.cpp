@@ -11,7 +11,7 @@
 
 #include "core/error.h"
 #include "gpu/device_impl.h"
-#include "gpu/pipeline_cache.h"
+#include "gpu/driver_cache.h"
 
 namespace photonloupe::gpu {
 namespace {

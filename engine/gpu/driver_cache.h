@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The software device's machine code between runs: Mesa compiles a kernel at its first dispatch and keeps the code in a
-// folder of files. We keep marks beside them, as Mesa cannot be asked what it has.
+// What drivers have compiled, between runs. Their pipelines: a stub on the software device, seconds saved on GPUs. The
+// software device's machine code: Mesa compiles a kernel at its first dispatch and keeps the code in a folder of files.
+// We keep marks beside them, as Mesa cannot be asked what it has.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +11,9 @@
 #include "gpu/device_impl.h"
 
 namespace photonloupe::gpu {
+
+VkPipelineCache load_pipeline_cache(const Device::Impl& impl);
+void save_pipeline_cache(const Device::Impl& impl);
 
 // Where Mesa keeps its files; empty when it keeps none.
 std::filesystem::path find_driver_cache();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads and writes the driver's pipeline cache; a missing or foreign file only means compiling again.
-#include "gpu/pipeline_cache.h"
+#include "gpu/driver_cache.h"
 
 #include <fstream>
 #include <iterator>

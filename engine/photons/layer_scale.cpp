@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Estimates the scale from a sample of photons, evenly spaced in the tree over parameters.
-#include "photons/layer_scale.h"
+#include "photons/layers.h"
 
 #include <algorithm>
 #include <cmath>

@@ -60,6 +60,13 @@ gpu::Buffer find_parameter_radii(gpu::Device& device, const ParameterTree& tree,
 gpu::Buffer find_layer_reaches(gpu::Device& device, const ParameterTree& by_parameters, const KdTree& layered,
                                std::uint32_t k, float beta, const Progress& progress = {});
 
+// How a layered tree weighs positions and parameters: metres that one unit of parameters is worth, so that whichever
+// leaves more of the map out of a search is split first. How far photons of one layer must be sought in space, over how
+// far their layer reaches in parameter space; the median over some photons. Layers that reach everywhere make it small,
+// and the tree one of positions; narrow ones make it large.
+float choose_parameter_scale(gpu::Device& device, const ParameterTree& by_parameters, std::uint32_t k, float beta,
+                             const Progress& progress = {});
+
 // The share of photons whose layer reaches over all of parameter space, from their squared reaches.
 double measure_boundless_share(const ParameterTree& tree, std::span<const float> reaches2);
 

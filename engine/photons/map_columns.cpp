@@ -155,6 +155,14 @@ PhotonMap share_map(const PhotonMap& map) {
     return shared;
 }
 
+std::vector<float> read_vectors(const gpu::Buffer& buffer, std::uint64_t count) {
+    std::vector<float> values;
+    values.reserve(3 * count);
+    for (const glm::vec4& packed : buffer.read<glm::vec4>(count))
+        values.insert(values.end(), {packed.x, packed.y, packed.z});
+    return values;
+}
+
 std::vector<float> read_positions(const PhotonMap& photons) {
     return unpack_positions(photons.position_emitter, photons.count, photons.origin);
 }

@@ -46,6 +46,9 @@ void set_colors(gpu::Device& device, PhotonMap& map, std::vector<float> values);
 PhotonMap share_map(const PhotonMap& map);
 PathColumns share_paths(const PathColumns& paths);
 
+// The first three of each four floats.
+std::vector<float> read_vectors(const gpu::Buffer& buffer, std::uint64_t count);
+
 // World positions: 3 floats a photon.
 std::vector<float> read_positions(const PhotonMap& photons);
 std::vector<std::int32_t> read_emitters(const PhotonMap& photons);

@@ -2,7 +2,6 @@
 // Builds trees once, under the map's lock.
 #include "photons/map_trees.h"
 
-#include "photons/layer_scale.h"
 #include "photons/map_columns.h"
 
 namespace photonloupe {

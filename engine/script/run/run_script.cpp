@@ -46,21 +46,13 @@ std::uint32_t find_path_columns(const PhotonMap& photons) {
 // Rows of neighbours the interpreter asks for at once.
 constexpr std::uint32_t ROWS_AT_ONCE = 1024;
 
-std::vector<float> unpack_vectors(const gpu::Buffer& buffer, std::uint64_t count) {
-    std::vector<float> values;
-    values.reserve(3 * count);
-    for (const glm::vec4& packed : buffer.read<glm::vec4>(count))
-        values.insert(values.end(), {packed.x, packed.y, packed.z});
-    return values;
-}
-
 void fetch_columns(const PhotonMap& photons, HostPhotons& host, std::uint32_t columns) {
     if (columns & COLUMN_POSITION)
         host.positions = read_positions(photons);
     if (columns & COLUMN_NORMAL)
-        host.normals = unpack_vectors(photons.normal_index, photons.count);
+        host.normals = read_vectors(photons.normal_index, photons.count);
     if (columns & COLUMN_POWER)
-        host.power = unpack_vectors(photons.power_object, photons.count);
+        host.power = read_vectors(photons.power_object, photons.count);
     if (columns & COLUMN_EMITTER)
         host.emitters = read_emitters(photons);
     if (!photons.paths) { // no path has a vertex
@@ -73,14 +65,13 @@ void fetch_columns(const PhotonMap& photons, HostPhotons& host, std::uint32_t co
     if (columns & COLUMN_PATH_VERTICES)
         host.path_vertices = read_path_vertices(paths, photons.origin);
     if (columns & COLUMN_PATH_NORMALS)
-        host.path_normals = unpack_vectors(paths.normals, paths.vertex_count);
+        host.path_normals = read_vectors(paths.normals, paths.vertex_count);
     if (columns & COLUMN_PATH_INTERACTIONS)
         host.path_interactions = read_path_interactions(paths);
     if (columns & COLUMN_PATH_OBJECTS)
         host.path_objects = read_path_objects(paths);
     if (columns & COLUMN_PATH_SCATTER)
-        for (const glm::vec4& normal : paths.normals.read<glm::vec4>(paths.vertex_count))
-            host.path_scatter.push_back(normal.w);
+        host.path_scatter = read_path_scatter(paths);
 }
 
 // Rows for a run of photons, so that a serial loop does not ask for each alone.
