@@ -17,12 +17,6 @@ class TraceKeywords(TypedDict, total=False):
     max_bounces: int | None
 
 
-class AllTraceKeywords(TraceKeywords, total=False):
-    """`engine/*/settings.h` says what each means."""
-
-    count: int | None
-
-
 class RelaxKeywords(TypedDict, total=False):
     """`engine/*/settings.h` says what each means."""
 

@@ -79,7 +79,7 @@ def write_keywords() -> str:
         known = list_settings(stage).values()
         name = f"{stage.title()}Keywords"
         parts.append(_write_type(name, "TypedDict", [one for one in known if one.name not in by_place]))
-        if by_place:
+        if stage == "relax":  # nothing else takes all of them as keywords
             parts.append(_write_type(f"All{name}", name, [one for one in known if one.name in by_place]))
     return "\n\n".join(parts)
 
