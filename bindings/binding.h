@@ -28,7 +28,7 @@ namespace photonloupe::bindings {
 
 using namespace nb::literals;
 
-// A dictionary: make_row("name"_a = value, …).
+// A dictionary: make_row("name"_a = value, …). Values are worked out in no order: none may take what another reads.
 template <class... Fields>
 nb::dict make_row(const Fields&... fields) {
     nb::dict row;

@@ -137,9 +137,9 @@ nb::dict plot(OpenDevice& open, Photons& photons, const nb::dict& given, std::op
 
 nb::dict map_errors(const Pixels& a, const Pixels& b, bool is_relative, float full) {
     ErrorMap map = measure_errors(take_image(a), take_image(b));
-    return make_row("pixels"_a = own_pixels(std::move(paint_errors(map, is_relative, full).rgb), map.height, map.width),
-                    "rmse"_a = map.rmse, "relmse"_a = map.relmse,
-                    "absolute"_a = own_array(std::move(map.absolute), map.width),
+    Image painted = paint_errors(map, is_relative, full);
+    return make_row("pixels"_a = own_pixels(std::move(painted.rgb), map.height, map.width), "rmse"_a = map.rmse,
+                    "relmse"_a = map.relmse, "absolute"_a = own_array(std::move(map.absolute), map.width),
                     "relative"_a = own_array(std::move(map.relative), map.width));
 }
 
