@@ -7,9 +7,9 @@
 
 #include "core/progress.h"
 #include "script/interpret/host_photons.h"
+#include "script/interpret/lanes.h"
 #include "script/interpret/run_outputs.h"
 #include "script/interpret/run_settings.h"
-#include "script/interpret/lanes.h"
 
 namespace photonloupe::script::tests {
 
