@@ -2,7 +2,7 @@
 // Binds engine/scene: loading, and the scene's parts as plain dictionaries.
 #include "binding.h"
 
-#include "scene/scene.h"
+#include "scene/edit_scene.h"
 
 namespace photonloupe::bindings {
 namespace {
@@ -34,9 +34,17 @@ nb::list list_lights(const Scene& scene) {
         }
         nb::dict row;
         row["name"] = scene.light_names[i];
-        row["kind"] = "point";
+        row["kind"] = name_kind(light);
         row["position"] = position;
         row["intensity"] = intensity;
+        if (find_kind(light) == shared::LIGHT_SPOT || find_kind(light) == shared::LIGHT_DIRECTIONAL)
+            row["direction"] = std::array{light.direction.x, light.direction.y, light.direction.z};
+        if (find_kind(light) == shared::LIGHT_SPOT)
+            row["cone"] = std::array{find_cone_angle(light.cone.x), find_cone_angle(light.cone.y)};
+        if (find_kind(light) == shared::LIGHT_AREA) {
+            row["area"] = light.cone.x;
+            row["two_sided"] = light.cone.w > 1;
+        }
         rows.append(row);
     }
     return rows;
@@ -94,6 +102,7 @@ void bind_scene(nb::module_& module) {
         .def_prop_ro("path", [](const Scene& scene) { return scene.path.string(); })
         .def_ro("hash", &Scene::hash)
         .def_ro("origin", &Scene::origin)
+        .def_prop_ro("additions", [](const Scene& scene) { return scene.additions; })
         .def_prop_ro("bounds", [](const Scene& scene) { return nb::make_tuple(scene.bounds.lo, scene.bounds.hi); })
         .def_prop_ro("cameras", &list_cameras)
         .def_prop_ro("lights", &list_lights)
@@ -102,6 +111,10 @@ void bind_scene(nb::module_& module) {
         .def_prop_ro("report", &describe_report)
         .def_prop_ro("triangle_count", [](const Scene& scene) { return scene.triangles.size(); })
         .def("describe", &describe_scene);
+    module.def(
+        "add_to_scene", [](const Scene& scene, const std::string& text) { return add_to_scene(scene, text); },
+        nb::arg("scene"), nb::arg("addition"), nb::call_guard<nb::gil_scoped_release>(),
+        "A copy with a light or a floor more; addition as engine/scene/edit_scene.h has it.");
     module.def(
         "load_scene", [](const std::string& path) { return load_scene(path); }, nb::arg("path"),
         nb::call_guard<nb::gil_scoped_release>(), "Read a glTF scene (.gltf or .glb).");

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes meshes, materials, point lights and cameras as glTF 2.0 text with one buffer beside it."""
+"""Writes meshes, materials, lights and cameras as glTF 2.0 text with one buffer beside it."""
 
 from __future__ import annotations
 
 import json
+import math
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -130,6 +131,12 @@ def make_glass(name: str, ior: float, thickness: float) -> dict[str, Any]:
     }
 
 
+def _aim(eye: Vector, target: Vector) -> list[float]:
+    """Rotation that turns -z from `eye` to `target`."""
+    steep = abs(target[1] - eye[1]) > 0.9 * math.dist(eye, target)
+    return find_rotation(eye, target, (1.0, 0.0, 0.0) if steep else (0.0, 1.0, 0.0))
+
+
 @dataclass
 class GltfWriter:
     """Collects a scene's parts in the order they are added, then writes them."""
@@ -177,9 +184,24 @@ class GltfWriter:
 
     def add_point_light(self, name: str, position: Vector, intensity: float) -> None:
         """Adds an isotropic point light of `intensity` W/sr."""
-        self.lights.append({"name": name, "type": "point", "color": [1.0, 1.0, 1.0], "intensity": intensity})
+        self._place_light(name, "point", intensity, {"translation": list(position)})
+
+    def add_spot_light(
+        self, name: str, position: Vector, target: Vector, intensity: float, inner: float, outer: float
+    ) -> None:
+        """Adds a spot of `intensity` W/sr on its axis; angles from the axis in radians."""
+        cone = {"innerConeAngle": inner, "outerConeAngle": outer}
+        node = {"translation": list(position), "rotation": _aim(position, target)}
+        self._place_light(name, "spot", intensity, node, spot=cone)
+
+    def add_directional_light(self, name: str, direction: Vector, irradiance: float) -> None:
+        """Adds parallel light of `irradiance` W/m² on a plane across it."""
+        self._place_light(name, "directional", irradiance, {"rotation": _aim((0.0, 0.0, 0.0), direction)})
+
+    def _place_light(self, name: str, kind: str, intensity: float, node: dict[str, Any], **more: Any) -> None:
+        self.lights.append({"name": name, "type": kind, "color": [1.0, 1.0, 1.0], "intensity": intensity, **more})
         extension = {"KHR_lights_punctual": {"light": len(self.lights) - 1}}
-        self.nodes.append({"name": name, "translation": list(position), "extensions": extension})
+        self.nodes.append({"name": name, **node, "extensions": extension})
 
     def add_camera(self, name: str, eye: Vector, target: Vector, yfov: float, up: Vector = (0.0, 1.0, 0.0)) -> None:
         """Adds a square perspective camera at `eye` looking at `target`; `yfov` in radians."""

@@ -144,6 +144,12 @@ std::string read_string(const JsonPlace& place) {
     return place.value->get<std::string>();
 }
 
+bool read_flag_or(const JsonPlace& place, bool fallback) {
+    if (place.value && !place.value->is_boolean())
+        refuse(place, "expected true or false", "correct the value");
+    return place.value ? place.value->get<bool>() : fallback;
+}
+
 std::string read_string_or(const JsonPlace& place, std::string_view fallback) {
     return place.value ? read_string(place) : std::string(fallback);
 }

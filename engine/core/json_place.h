@@ -52,5 +52,6 @@ double read_number_or(const JsonPlace& place, double fallback, NumberRange range
 std::vector<double> read_numbers_or(const JsonPlace& place, std::vector<double> fallback, NumberRange range = {});
 std::string read_string(const JsonPlace& place);
 std::string read_string_or(const JsonPlace& place, std::string_view fallback);
+bool read_flag_or(const JsonPlace& place, bool fallback);
 
 } // namespace photonloupe

@@ -25,8 +25,8 @@ gpu::KernelSource name_eye_kernel(const Scene& scene) {
     return {"estimate/trace_eye.comp", 64, list_scene_defines(scene), {}};
 }
 
-gpu::KernelSource name_light_kernel() {
-    return {"estimate/light_direct.comp", 64, {}, {}};
+gpu::KernelSource name_light_kernel(const Scene& scene) {
+    return {"estimate/light_direct.comp", 64, list_light_defines(scene), {}};
 }
 
 gpu::KernelSource name_color_kernel() {
@@ -99,9 +99,10 @@ void Renderer::trace_eye(const FilmScratch& scratch) {
 }
 
 void Renderer::light_direct(const FilmScratch& scratch) {
-    gpu::dispatch(device, "light directly", name_light_kernel(),
+    gpu::dispatch(device, "light directly", name_light_kernel(scene),
                   {{"geometry", buffers.geometry},
                    {"lights", buffers.lights},
+                   {"emitting", buffers.emitting},
                    {"hit_point", scratch.hit_point},
                    {"hit_normal", scratch.hit_normal},
                    {"direct_irradiance", scratch.direct_irradiance}},
@@ -205,7 +206,7 @@ std::vector<gpu::KernelSource> list_render_kernels(const Scene& scene, Store sto
     const Parts parts = choose_parts(settings.mode, store);
     std::vector<gpu::KernelSource> kernels{name_eye_kernel(scene)};
     if (parts.direct)
-        kernels.push_back(name_light_kernel());
+        kernels.push_back(name_light_kernel(scene));
     if (parts.map)
         for (gpu::KernelSource& kernel : list_estimate_kernels(settings.estimate, expects_one_normal(scene)))
             kernels.push_back(std::move(kernel));
@@ -228,10 +229,13 @@ Image render_image(gpu::Device& device, const Scene& scene, const SceneBuffers& 
     renderer.eye.width = settings.width;
     renderer.eye.height = settings.height;
     renderer.eye.samples = renderer.film_push.samples = settings.samples;
-    renderer.eye.seed = settings.seed;
+    renderer.eye.seed = renderer.film_push.seed = settings.seed;
     renderer.eye.max_bounces = settings.max_bounces;
     renderer.eye.slot_count = renderer.film_push.slot_count = has_glass ? DIELECTRIC_SLOTS : 1;
     renderer.film_push.light_count = static_cast<std::uint32_t>(scene.lights.size());
+    for (const shared::Light& light : scene.lights)
+        if (find_kind(light) == shared::LIGHT_ENVIRONMENT)
+            renderer.eye.environment += light.intensity;
     const Parts parts = choose_parts(settings.mode, map ? map->store : Store::caustic);
     renderer.film_push.uses_emission = parts.emission;
     renderer.film_push.uses_map = parts.map;

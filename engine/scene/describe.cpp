@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // describe_scene: what a scene holds, in a page of text.
+#include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <numbers>
 #include <sstream>
@@ -47,6 +49,34 @@ std::string describe_material(const shared::Material& material) {
     return text.str();
 }
 
+double to_degrees(double angle) {
+    return angle * 180 / std::numbers::pi;
+}
+
+std::string describe_light(const shared::Light& light) {
+    std::ostringstream text;
+    text << std::setprecision(DIGITS) << name_kind(light) << " light, ";
+    switch (find_kind(light)) {
+    case shared::LIGHT_SPOT:
+        text << format_vector(light.intensity) << " W/sr within " << to_degrees(find_cone_angle(light.cone.x))
+             << "° to " << to_degrees(find_cone_angle(light.cone.y)) << "°";
+        break;
+    case shared::LIGHT_DIRECTIONAL:
+        text << format_vector(light.intensity) << " W/m² along " << format_vector(light.direction);
+        break;
+    case shared::LIGHT_AREA:
+        text << format_vector(light.intensity, std::numbers::pi * light.cone.x * light.cone.w) << " W from "
+             << light.cone.x << " m²" << (light.cone.w > 1 ? ", both sides" : "");
+        break;
+    case shared::LIGHT_ENVIRONMENT:
+        text << format_vector(light.intensity) << " W/(m² sr) from all around";
+        break;
+    default:
+        text << format_vector(light.intensity, 4 * std::numbers::pi) << " W";
+    }
+    return text.str();
+}
+
 std::string join(const std::vector<std::string>& names) {
     std::string text;
     for (const std::string& name : names)
@@ -63,6 +93,34 @@ void list_lines(std::ostringstream& text, const char* title, const std::vector<s
 }
 
 } // namespace
+
+float find_cap(double angle) {
+    return static_cast<float>(2 * std::pow(std::sin(0.5 * angle), 2));
+}
+
+double find_cone_angle(float cap) {
+    return 2 * std::asin(std::sqrt(0.5 * static_cast<double>(cap)));
+}
+
+std::string count_lights(const Scene& scene) {
+    std::vector<std::string> counts;
+    for (const char* kind : {"point", "spot", "directional", "area", "environment"}) {
+        const auto count = std::count_if(scene.lights.begin(), scene.lights.end(), [&](const shared::Light& light) {
+            return std::string_view(name_kind(light)) == kind;
+        });
+        if (count > 0)
+            counts.push_back(std::to_string(count) + " " + kind + (count == 1 ? " light" : " lights"));
+    }
+    std::string text;
+    for (std::size_t i = 0; i < counts.size(); ++i)
+        text += (i == 0 ? "" : i + 1 == counts.size() ? " and " : ", ") + counts[i];
+    return text;
+}
+
+const char* name_kind(const shared::Light& light) {
+    constexpr const char* NAMES[] = {"point", "spot", "directional", "area", "environment"};
+    return NAMES[find_kind(light)];
+}
 
 SceneFeatures list_features(const SceneReport& report) {
     const std::pair<bool, const char*> features[] = {
@@ -86,12 +144,11 @@ std::string describe_scene(const Scene& scene) {
         text << ", computed relative to " << format_vector(scene.origin);
     text << "\n" << scene.lights.size() << (scene.lights.size() == 1 ? " light\n" : " lights\n");
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
-        text << "  " << scene.light_names[i] << ": point light, "
-             << format_vector(scene.lights[i].intensity, 4 * std::numbers::pi) << " W\n";
+        text << "  " << scene.light_names[i] << ": " << describe_light(scene.lights[i]) << "\n";
     text << scene.cameras.size() << (scene.cameras.size() == 1 ? " camera\n" : " cameras\n");
     for (const Camera& camera : scene.cameras)
-        text << "  " << camera.name << ": at " << format_vector(camera.position) << ", "
-             << camera.yfov * 180 / std::numbers::pi << "° high\n";
+        text << "  " << camera.name << ": at " << format_vector(camera.position) << ", " << to_degrees(camera.yfov)
+             << "° high\n";
     text << scene.materials.size() << (scene.materials.size() == 1 ? " material\n" : " materials\n");
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
         text << "  " << scene.material_names[i] << ": " << describe_material(scene.materials[i]) << "\n";

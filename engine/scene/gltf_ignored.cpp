@@ -25,7 +25,7 @@ const std::map<std::string_view, const char*>& get_member_features() {
         {"metallicRoughnessTexture", "metallic-roughness textures"},
         {"normalTexture", "normal textures"},
         {"occlusionTexture", "occlusion textures"},
-        {"emissiveTexture", "emissive textures"},
+        {"emissiveTexture", "emissive textures (what they light up is dark)"},
         {"transmissionTexture", "transmission textures"},
         {"thicknessTexture", "thickness textures"},
         {"targets", "morph targets"},
@@ -65,17 +65,6 @@ void count_used_extensions(const JsonPlace& root, std::map<std::string, std::siz
     }
 }
 
-void list_lights(const JsonPlace& root, std::vector<std::string>& ignored) {
-    const JsonPlace extension = find_member(find_member(root, "extensions"), "KHR_lights_punctual");
-    const JsonPlace lights = find_member(extension, "lights");
-    for (std::size_t i = 0; i < count_elements(lights, MAX_ENTRIES); ++i) {
-        const JsonPlace light = get_element(lights, i);
-        const std::string type = read_string_or(find_member(light, "type"), "");
-        if (type == "spot" || type == "directional")
-            ignored.push_back(light.path + ": " + type + " lights are not modeled yet");
-    }
-}
-
 void list_alpha(const JsonPlace& root, std::vector<std::string>& ignored) {
     const JsonPlace materials = find_member(root, "materials");
     for (std::size_t i = 0; i < count_elements(materials, MAX_ENTRIES); ++i) {
@@ -101,7 +90,6 @@ std::vector<std::string> list_ignored_features(const JsonPlace& root) {
     std::vector<std::string> ignored;
     for (const auto& [feature, count] : counts)
         ignored.push_back(feature + (count > 1 ? " (" + std::to_string(count) + ")" : "") + ": not modeled");
-    list_lights(root, ignored);
     list_alpha(root, ignored);
     return ignored;
 }

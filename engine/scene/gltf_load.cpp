@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "scene/bvh.h"
+#include "scene/emitting_objects.h"
 #include "scene/gltf_container.h"
 #include "scene/gltf_wall.h"
 #include "scene/limits.h"
@@ -79,6 +80,7 @@ Scene load_scene_from_memory(std::span<const unsigned char> bytes, const std::fi
     load_lights(model, nodes, scene);
     load_cameras(model, nodes, scene);
     scene.nodes = build_bvh(scene.triangles, scene.normals);
+    list_emitting_objects(scene);
     return scene;
 }
 

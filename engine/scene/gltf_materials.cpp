@@ -18,6 +18,7 @@ constexpr NumberRange POWER{0.0, 1e30};
 constexpr NumberRange NOT_NEGATIVE{0.0};
 // Beyond, a field of view has no finite image plane.
 constexpr double MAX_YFOV = 3.14;
+constexpr double WIDEST_CONE = 0.5 * std::numbers::pi;
 // Indices of refraction of real matter end near 4; glTF's special 0 (a perfect Fresnel reflector) is not modeled.
 constexpr NumberRange IOR{1.0, 100.0};
 
@@ -58,8 +59,21 @@ Json check_material(const JsonPlace& place) {
              {{"baseColorFactor", read_numbers_or(find_member(pbr, "baseColorFactor"), {1, 1, 1, 1}, UNIT)},
               {"metallicFactor", read_number_or(find_member(pbr, "metallicFactor"), 1.0, UNIT)},
               {"roughnessFactor", read_number_or(find_member(pbr, "roughnessFactor"), 1.0, UNIT)}}},
-            {"emissiveFactor", read_numbers_or(find_member(place, "emissiveFactor"), {0, 0, 0}, UNIT)},
+            // What an emissive texture lights up is part of a surface: all of it would be a lamp.
+            {"emissiveFactor", find_member(place, "emissiveTexture").value
+                                   ? std::vector<double>{0, 0, 0}
+                                   : read_numbers_or(find_member(place, "emissiveFactor"), {0, 0, 0}, UNIT)},
+            {"doubleSided", read_flag_or(find_member(place, "doubleSided"), false)},
             {"extensions", std::move(extensions)}};
+}
+
+Json check_spot(const JsonPlace& place) {
+    const JsonPlace inner = find_member(place, "innerConeAngle"), outer = find_member(place, "outerConeAngle");
+    const double least = read_number_or(inner, 0.0, {0.0, WIDEST_CONE});
+    const double most = read_number_or(outer, 0.25 * std::numbers::pi, require_positive(outer, WIDEST_CONE));
+    if (least > most)
+        refuse(inner, "the inner cone is wider than the outer one", "make innerConeAngle the smaller");
+    return {{"innerConeAngle", least}, {"outerConeAngle", most}};
 }
 
 Json check_light(const JsonPlace& place) {
@@ -71,10 +85,13 @@ Json check_light(const JsonPlace& place) {
     for (const double channel : color)
         if (channel * intensity > POWER.hi)
             refuse(place, "color times intensity is beyond the range of 32-bit floats", "lower the intensity");
-    return {{"name", read_string_or(find_member(place, "name"), "")},
-            {"type", type == "point" ? "point" : "none"},
-            {"color", color},
-            {"intensity", intensity}};
+    Json approved{{"name", read_string_or(find_member(place, "name"), "")},
+                  {"type", type},
+                  {"color", color},
+                  {"intensity", intensity}};
+    if (type == "spot")
+        approved["spot"] = check_spot(find_member(place, "spot"));
+    return approved;
 }
 
 Json check_camera(const JsonPlace& place) {

@@ -30,7 +30,19 @@ void load_light(const tinygltf::Light& light, const PlacedNode& node, const std:
         const double channel = light.color.empty() ? 1.0 : light.color[std::size_t(i)];
         intensity[i] = float(channel * light.intensity);
     }
-    scene.lights.push_back({{position, std::bit_cast<float>(shared::LIGHT_POINT)}, {intensity, 0.0f}});
+    shared::Light placed{{position, std::bit_cast<float>(shared::LIGHT_POINT)}, {intensity, 0.0f}, {}, {}};
+    if (light.type != "point") {
+        const auto backward = normalize_robustly(glm::dvec3(node.world[2])); // lights shine along -z
+        if (!backward)
+            throw SceneError(scene.path.string() + ": the node of light " + quote_text(name) +
+                             " has a singular or infinite transform; give it a scale of 1");
+        placed.direction = {glm::vec3(-*backward), 0.0f};
+        placed.position_kind.w =
+            std::bit_cast<float>(light.type == "spot" ? shared::LIGHT_SPOT : shared::LIGHT_DIRECTIONAL);
+    }
+    if (light.type == "spot")
+        placed.cone = {find_cap(light.spot.innerConeAngle), find_cap(light.spot.outerConeAngle), 0.0f, 0.0f};
+    scene.lights.push_back(placed);
     scene.light_names.push_back(name);
 }
 
@@ -65,8 +77,7 @@ void load_lights(const tinygltf::Model& model, const std::vector<PlacedNode>& no
             continue;
         const auto index = std::size_t(extension->second.Get("light").GetNumberAsInt());
         const tinygltf::Light& light = model.lights.at(index);
-        if (light.type == "point")
-            load_light(light, node, name_node(model, node.node, light.name, "light"), scene);
+        load_light(light, node, name_node(model, node.node, light.name, "light"), scene);
     }
 }
 

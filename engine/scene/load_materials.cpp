@@ -59,7 +59,8 @@ shared::Material convert_material(const tinygltf::Material& material, const std:
     result.base_color_metallic.w = float(pbr.metallicFactor);
     result.absorption_ior = {absorption, float(read_extension_number(material, "KHR_materials_ior", "ior", 1.5))};
     result.emission_transmission.w = float(transmission);
-    result.roughness_thin = {float(pbr.roughnessFactor), is_thin ? 1.0f : 0.0f, 0.0f, 0.0f};
+    result.roughness_thin = {float(pbr.roughnessFactor), is_thin ? 1.0f : 0.0f, material.doubleSided ? 1.0f : 0.0f,
+                             0.0f};
     return result;
 }
 
@@ -78,6 +79,8 @@ std::vector<bool> find_used_materials(const Scene& scene) {
             used[object.material] = true;
     return used;
 }
+
+} // namespace
 
 void report_material(const shared::Material& material, const std::string& label, SceneReport& report) {
     const float metallic = material.base_color_metallic.w;
@@ -102,11 +105,7 @@ void report_material(const shared::Material& material, const std::string& label,
         report.ignored.push_back(label + ": its roughness is not modeled yet, it is treated as smooth");
     if (is_diffuse)
         report.ignored.push_back(label + ": the specular lobe of its opaque, non-metal part is not modeled (Lambert)");
-    if (emits)
-        report.ignored.push_back(label + ": its emission is seen by cameras but does not light the scene yet");
 }
-
-} // namespace
 
 void load_materials(const tinygltf::Model& model, Scene& scene) {
     const std::string scene_name = scene.path.string();

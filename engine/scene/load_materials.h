@@ -12,4 +12,7 @@ namespace photonloupe {
 // Appends glTF's default material if an object asks for it.
 void load_materials(const tinygltf::Model& model, Scene& scene);
 
+// Notes what a material needs and what is not modeled of it.
+void report_material(const shared::Material& material, const std::string& label, SceneReport& report);
+
 } // namespace photonloupe

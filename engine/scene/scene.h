@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -48,7 +49,8 @@ struct SceneReport {
 
 struct Scene {
     std::filesystem::path path;
-    std::string hash;                        // of the file and every buffer it uses, hex
+    std::string hash;                        // of the file, every buffer it uses and the additions, hex
+    std::vector<std::string> additions;      // what was added to the file's (scene/edit_scene.h), JSON each
     std::array<double, 3> origin{};          // world position of the kernels' (0, 0, 0)
     Bounds bounds;                           // world
     std::vector<shared::Triangle> triangles; // in BVH leaf order
@@ -59,9 +61,34 @@ struct Scene {
     std::vector<SceneObject> objects;
     std::vector<shared::Light> lights;
     std::vector<std::string> light_names;
+    std::vector<shared::EmittingTriangle> emitting; // of area lights
     std::vector<Camera> cameras;
     SceneReport report;
 };
+
+// Index of a triangle's material.
+inline std::uint32_t find_material(const shared::Triangle& triangle) {
+    return std::bit_cast<std::uint32_t>(triangle.v1_material.w);
+}
+
+inline std::uint32_t find_kind(const shared::Light& light) {
+    return std::bit_cast<std::uint32_t>(light.position_kind.w);
+}
+
+// 1 - cos of a cone's angle, which keeps the digits of narrow ones.
+float find_cap(double angle);
+// Its inverse, radians.
+double find_cone_angle(float cap);
+
+// point, spot, directional, area or environment.
+const char* name_kind(const shared::Light& light);
+
+// "2 point lights and 1 area light".
+std::string count_lights(const Scene& scene);
+
+inline bool is_two_sided(const shared::Material& material) {
+    return material.roughness_thin.z > 0;
+}
 
 // Reads a .gltf or .glb file behind the project's wall. Throws SceneError with what, where and what to do.
 Scene load_scene(const std::filesystem::path& path);

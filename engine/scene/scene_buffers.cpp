@@ -2,6 +2,7 @@
 // Uploads the scene; an empty scene becomes one box that no ray enters.
 #include "scene/scene_buffers.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace photonloupe {
@@ -35,7 +36,21 @@ SceneBuffers upload_scene(gpu::Device& device, const Scene& scene) {
     buffers.normals = gpu::make_buffer(device, scene.normals, "shading normals");
     buffers.materials = gpu::make_buffer(device, scene.materials, "materials");
     buffers.lights = gpu::make_buffer(device, scene.lights, "lights");
+    buffers.emitting = gpu::make_buffer(device, scene.emitting, "emitting triangles");
     return buffers;
+}
+
+std::vector<std::string> list_light_defines(const Scene& scene) {
+    constexpr std::pair<std::uint32_t, const char*> DEFINES[] = {{shared::LIGHT_SPOT, "HAS_SPOT_LIGHTS"},
+                                                                 {shared::LIGHT_DIRECTIONAL, "HAS_DIRECTIONAL_LIGHTS"},
+                                                                 {shared::LIGHT_AREA, "HAS_AREA_LIGHTS"},
+                                                                 {shared::LIGHT_ENVIRONMENT, "HAS_ENVIRONMENT"}};
+    std::vector<std::string> defines;
+    for (const auto& [kind, define] : DEFINES)
+        if (std::any_of(scene.lights.begin(), scene.lights.end(),
+                        [&](const shared::Light& light) { return find_kind(light) == kind; }))
+            defines.emplace_back(define);
+    return defines;
 }
 
 std::vector<std::string> list_scene_defines(const Scene& scene) {

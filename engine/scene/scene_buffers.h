@@ -12,9 +12,13 @@ struct SceneBuffers {
     gpu::Buffer normals;
     gpu::Buffer materials;
     gpu::Buffer lights;
+    gpu::Buffer emitting; // triangles of area lights
 };
 
 SceneBuffers upload_scene(gpu::Device& device, const Scene& scene);
+
+// Defines for kernels that draw from lights: the kinds there are besides point lights.
+std::vector<std::string> list_light_defines(const Scene& scene);
 
 // Defines for kernels that follow rays: only what the scene contains is compiled in.
 std::vector<std::string> list_scene_defines(const Scene& scene);

@@ -20,6 +20,8 @@ const Command COMMANDS[] = {
     {"edit.redo", "ctrl+y", "Redo what was undone", false, redo},
     {"edit.copy_python", "ctrl+shift+c", "Copy the Python that makes the present state", true, copy_python},
     {"session.save", "ctrl+s", "Save the session", true, save_session_command},
+    {"scene.add_light", "", "Add a light that suits the scene", false, add_key_light},
+    {"scene.add_floor", "", "Add a diffuse floor below the scene", false, add_floor},
     {"view.points", "1", "View: photons as points", false, show_mode<ViewMode::points>},
     {"view.voronoi", "2", "View: Voronoi cells", false, show_mode<ViewMode::voronoi>},
     {"view.kd_tree", "3", "View: partition of the kd-tree", false, show_mode<ViewMode::kd_tree>},

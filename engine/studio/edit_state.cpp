@@ -98,6 +98,17 @@ void open_script(Workspace& workspace, const std::string& path, const std::strin
     });
 }
 
+void add_key_light(Workspace& workspace) {
+    workspace.change("add a light", [](StudioState& state) {
+        state.trace.additions.emplace_back(R"({"add": "light", "kind": "auto"})");
+    });
+}
+
+void add_floor(Workspace& workspace) {
+    workspace.change("add a floor",
+                     [](StudioState& state) { state.trace.additions.emplace_back(R"({"add": "floor"})"); });
+}
+
 void set_mode(Workspace& workspace, ViewMode mode) {
     workspace.change("view", [&](StudioState& state) { state.view.mode = mode; });
 }

@@ -17,6 +17,10 @@ void open_next_example(Workspace& workspace);
 // Takes a text into the editor.
 void open_script(Workspace& workspace, const std::string& path, const std::string& text);
 
+// To the scene's file, which traces it anew.
+void add_key_light(Workspace& workspace);
+void add_floor(Workspace& workspace);
+
 void set_mode(Workspace& workspace, ViewMode mode);
 template <ViewMode Mode>
 void show_mode(Workspace& workspace) {

@@ -15,6 +15,7 @@ template <class Archive>
 void visit(Archive& archive, TraceState& trace) {
     archive.path("scene", trace.scene);
     archive.path("map", trace.map);
+    archive.field("additions", trace.additions, MOST_ENTRIES, 4 * LONGEST_NAME);
     archive.settings(list_settings<TraceSettings>(trace));
 }
 

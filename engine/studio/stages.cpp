@@ -10,6 +10,7 @@
 #include "estimate/camera_frame.h"
 #include "relax/isotropy.h"
 #include "relax/measure_evenness.h"
+#include "scene/edit_scene.h"
 #include "script/compile_script.h"
 #include "studio/python_script.h"
 #include "studio/stage_choices.h"
@@ -75,19 +76,24 @@ void Stages::say(std::string text) {
     m_deliver([text = std::move(text)](Workspace& workspace) { workspace.say(text); });
 }
 
-std::shared_ptr<const Scene> Stages::find_scene(const std::string& path) {
+std::shared_ptr<const Scene> Stages::find_scene(const TraceState& trace) {
     std::shared_ptr<const Scene> scene;
     {
         const std::lock_guard lock(m_mutex);
         scene = m_opened ? std::exchange(m_opened, nullptr) : m_made.scene;
     }
-    return scene && is_same_file(scene->path, path) ? scene : std::make_shared<const Scene>(load_scene(path));
+    if (scene && is_same_file(scene->path, trace.scene) && scene->additions == trace.additions)
+        return scene;
+    Scene loaded = load_scene(trace.scene);
+    for (const std::string& addition : trace.additions)
+        loaded = add_to_scene(loaded, addition);
+    return std::make_shared<const Scene>(std::move(loaded));
 }
 
 void Stages::trace(const Job& job, const Progress& progress) {
     TraceSettings settings = job.state.trace;
     settings.paths = true;
-    const std::shared_ptr<const Scene> scene = find_scene(job.state.trace.scene);
+    const std::shared_ptr<const Scene> scene = find_scene(job.state.trace);
     take_photons(scene, m_bench.trace_photons(*scene, settings, progress), settings, progress);
 }
 

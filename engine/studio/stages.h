@@ -82,7 +82,7 @@ private:
     void render(const Job& job, const Progress& progress);
     void compare(const Job& job, const Progress& progress);
 
-    std::shared_ptr<const Scene> find_scene(const std::string& path);
+    std::shared_ptr<const Scene> find_scene(const TraceState& trace);
     void say(std::string text);
     template <class Change>
     void make(const Change& change) {

@@ -19,9 +19,10 @@ namespace photonloupe::studio {
 using Ids = std::shared_ptr<const std::vector<std::uint32_t>>;
 
 struct TraceState : TraceSettings {
-    std::string scene;               // path; empty: none
-    std::string map;                 // path of a saved map that takes the place of tracing; empty: none
-    TraceState() { count = 50'000; } // to be looked at soon
+    std::string scene;                  // path; empty: none
+    std::string map;                    // path of a saved map that takes the place of tracing; empty: none
+    std::vector<std::string> additions; // to the scene's file (scene/edit_scene.h), JSON each
+    TraceState() { count = 50'000; }    // to be looked at soon
     bool operator==(const TraceState&) const = default;
 };
 

@@ -7,6 +7,7 @@
 #include <imgui_stdlib.h>
 
 #include "studio/commands.h"
+#include "studio/edit_state.h"
 #include "studio/menus.h"
 #include "studio/panels.h"
 #include "studio/theme.h"
@@ -59,6 +60,14 @@ void draw_activity(Workspace& workspace) {
         if (ui::button(workspace, "Status/Cancel", activity.is_stopping ? "stopping" : "Cancel"))
             workspace.requests.push_back("cancel");
         ImGui::EndDisabled();
+    }
+    if (workspace.failed.contains("trace") && !activity.is_running) {
+        ImGui::SameLine();
+        if (ui::button(workspace, "Status/Add light", "Add a light", "One that suits the scene"))
+            add_key_light(workspace);
+        ImGui::SameLine();
+        if (ui::button(workspace, "Status/Add floor", "Add a floor", "A diffuse square below the scene"))
+            add_floor(workspace);
     }
     if (!workspace.failed.empty() && !activity.is_running) {
         ImGui::SameLine();

@@ -38,8 +38,12 @@ std::optional<Job> plan_work(const StudioState& state, const CameraPose& camera,
     if (state.trace.scene.empty() && state.trace.map.empty())
         return job;
     const bool is_traced = state.trace.map.empty();
-    const std::string traced = is_traced ? write_values(state.trace.scene) + write_settings<TraceSettings>(state.trace)
-                                         : write_values(state.trace.map);
+    std::string traced = write_values(is_traced ? state.trace.scene : state.trace.map);
+    if (is_traced) {
+        traced += write_settings<TraceSettings>(state.trace);
+        for (const std::string& addition : state.trace.additions)
+            traced += write_values(addition);
+    }
     if (ask(is_traced ? "trace" : "map", traced))
         return job;
     if (!holding.photons)

@@ -3,6 +3,7 @@
 #include "trace/emitters.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "trace/projection_map.h"
 
@@ -16,7 +17,7 @@ double find_largest(const glm::dvec3& v) {
 void require_contents(const Scene& scene, Store store) {
     const std::string where = scene.path.string() + ": ";
     if (scene.lights.empty())
-        throw SceneError(where + "scene has no emitter; add a KHR_lights_punctual point light");
+        throw SceneError(where + "scene has no emitter; add one with scene.add_light(...) or --light auto");
     if (scene.triangles.empty())
         throw SceneError(where + "scene has no triangles; add a mesh");
     if (!scene.report.has_diffuse)
@@ -25,6 +26,22 @@ void require_contents(const Scene& scene, Store store) {
     if (store == Store::caustic && !scene.report.has_mirror && !scene.report.has_dielectric && !scene.report.has_thin)
         throw SceneError(where + "scene has no specular surface, so it has no caustic; add a metal or glass "
                                  "material, or trace with store=\"all\" or \"indirect\"");
+}
+
+shared::LightEmission describe_emission(const shared::Light& light, const EmissionFrame& frame) {
+    shared::LightEmission emission{};
+    emission.position_kind = {glm::vec3(frame.origin), light.position_kind.w};
+    emission.u_axis = glm::vec4(glm::vec3(frame.u), 0.0f);
+    emission.v_axis = glm::vec4(glm::vec3(frame.v), 0.0f);
+    emission.axis_sides = glm::vec4(glm::vec3(frame.axis), static_cast<float>(frame.sides));
+    emission.cone = {static_cast<float>(frame.inner), static_cast<float>(frame.outer), 0.0f, 0.0f};
+    if (frame.kind == shared::LIGHT_ENVIRONMENT)
+        emission.cone = {static_cast<float>(frame.disc), static_cast<float>(frame.launch), 0.0f, 0.0f};
+    if (frame.kind == shared::LIGHT_AREA) {
+        emission.first_row.z = std::bit_cast<std::uint32_t>(light.cone.y);
+        emission.first_row.w = std::bit_cast<std::uint32_t>(light.cone.z);
+    }
+    return emission;
 }
 
 void append_projection(EmitterTable& table, const ProjectionMap& map, shared::LightEmission& emission) {
@@ -43,18 +60,24 @@ EmitterTable build_emitters(const Scene& scene, Store store) {
     std::vector<glm::dvec3> powers;
     double total = 0;
     for (const shared::Light& light : scene.lights) {
-        const ProjectionMap map = store == Store::caustic ? project_specular(scene, light) : make_full_projection();
-        shared::LightEmission emission{};
-        emission.position_kind = light.position_kind;
+        const bool is_aimed = store == Store::caustic;
+        const EmissionFrame frame = frame_emission(scene, light, is_aimed);
+        const bool has_map = frame.kind == shared::LIGHT_DIRECTIONAL ||
+                             (is_aimed && frame.is_flat && frame.kind != shared::LIGHT_ENVIRONMENT);
+        const ProjectionMap map = has_map ? project_light(scene, frame, is_aimed) : make_full_projection();
+        shared::LightEmission emission = describe_emission(light, frame);
         append_projection(table, map, emission);
-        powers.push_back(glm::dvec3(light.intensity) * map.solid_angle());
+        const double measure = frame.find_measure(light) * map.find_share();
+        powers.push_back(glm::dvec3(light.intensity) * measure);
         total += find_largest(powers.back());
-        table.solid_angle += map.solid_angle();
+        if (frame.kind == shared::LIGHT_POINT || frame.kind == shared::LIGHT_SPOT)
+            table.solid_angle += measure;
         table.emitters.push_back(emission);
     }
     if (!(total > 0))
-        throw SceneError(scene.path.string() + ": no light sends anything towards a specular surface; "
-                                               "check the lights' intensities and colors");
+        throw SceneError(scene.path.string() + ": of its " + count_lights(scene) + " none sends anything towards " +
+                         (store == Store::caustic ? "a specular surface" : "a surface") +
+                         "; check their intensities, colors and directions");
     double before = 0;
     std::vector<shared::LightEmission> shining; // a light that sends nothing must never be drawn, not even by rounding
     for (std::size_t i = 0; i < powers.size(); ++i) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Builds projection maps: triangles are split until each is seen within less than a cell, then their caps are marked.
+// Builds projection maps: triangles are split until each is seen within less than a cell, then what it covers is
+// marked.
 #include "trace/projection_map.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 
 #include <glm/geometric.hpp>
@@ -23,119 +23,170 @@ constexpr std::size_t ENOUGH_CELLS = 4096;
 constexpr int SPLIT_LIMIT = 24;
 // Rounding of positions to float, seen from the light, in radians: far below any cell, far above double rounding.
 constexpr double ANGLE_SLACK = 1e-6;
+// The same for starts of directional light, in cells.
+constexpr double START_SLACK = 1e-2;
 
-struct Marker {
-    std::uint32_t rows;
-    std::uint32_t columns;
-    std::vector<std::uint8_t> marks;
+// The square's cells, and where geometry falls on them.
+class Marker {
+public:
+    Marker(const EmissionFrame& frame, std::uint32_t row_count)
+        : m_frame(frame), m_rows(row_count), m_columns(2 * row_count), m_marks(std::size_t{m_rows} * m_columns),
+          m_finest(std::min(2.0, frame.widest()) / row_count) {}
 
-    explicit Marker(std::uint32_t row_count)
-        : rows(row_count), columns(2 * row_count), marks(std::size_t{rows} * columns) {}
+    void mark_triangle(const dvec3& a, const dvec3& b, const dvec3& c) {
+        if (m_frame.kind == shared::LIGHT_DIRECTIONAL)
+            mark_starts(place_start(a), place_start(b), place_start(c), 0);
+        else
+            mark_directions(turn(a), turn(b), turn(c), 0);
+    }
 
-    void mark_all() { std::fill(marks.begin(), marks.end(), std::uint8_t{1}); }
+    ProjectionMap collect() const;
+
+private:
+    // Relative to the light, its axis along y.
+    dvec3 turn(const dvec3& corner) const {
+        const dvec3 d = corner - m_frame.origin;
+        return {glm::dot(d, m_frame.u), glm::dot(d, m_frame.axis), glm::dot(d, m_frame.v)};
+    }
+
+    // Columns and rows, as fractions of the square.
+    glm::dvec2 place_start(const dvec3& corner) const {
+        const dvec3 d = corner - m_frame.origin;
+        return {glm::dot(d, m_frame.u) / glm::dot(m_frame.u, m_frame.u),
+                glm::dot(d, m_frame.v) / glm::dot(m_frame.v, m_frame.v)};
+    }
+
+    void mark_all() {
+        std::fill(m_marks.begin(), m_marks.end(), std::uint8_t{1});
+        m_is_full = true;
+    }
+
+    std::uint32_t find_row(double angle) const {
+        const double share = m_frame.find_share(std::clamp(angle, 0.0, std::numbers::pi));
+        return std::min(m_rows - 1, static_cast<std::uint32_t>(share * m_rows));
+    }
 
     // All cells that meet the cap of directions within `radius` of `center`.
     void mark_cap(const dvec3& center, double radius) {
         const double polar = std::acos(std::clamp(center.y, -1.0, 1.0));
-        const auto row_of = [&](double angle) {
-            const double y = std::cos(std::clamp(angle, 0.0, std::numbers::pi));
-            return std::min(rows - 1, static_cast<std::uint32_t>((1.0 - y) * 0.5 * rows));
-        };
         const bool holds_pole = polar - radius <= 0 || polar + radius >= std::numbers::pi;
         const double reach =
             holds_pole ? std::numbers::pi : std::asin(std::min(1.0, std::sin(radius) / std::sin(polar))) + ANGLE_SLACK;
         const double turn = 2 * std::numbers::pi;
         const double azimuth = std::atan2(center.z, center.x);
-        const auto first = static_cast<std::int64_t>(std::floor((azimuth - reach) / turn * columns));
-        const auto last = static_cast<std::int64_t>(std::floor((azimuth + reach) / turn * columns));
-        const std::int64_t span = std::min<std::int64_t>(last - first, columns - 1);
-        for (std::uint32_t row = row_of(polar - radius); row <= row_of(polar + radius); ++row)
+        const auto first = static_cast<std::int64_t>(std::floor((azimuth - reach) / turn * m_columns));
+        const auto last = static_cast<std::int64_t>(std::floor((azimuth + reach) / turn * m_columns));
+        const std::int64_t span = std::min<std::int64_t>(last - first, m_columns - 1);
+        for (std::uint32_t row = find_row(polar - radius); row <= find_row(polar + radius); ++row)
             for (std::int64_t step = 0; step <= span; ++step)
-                marks[std::size_t{row} * columns +
-                      static_cast<std::size_t>((first + step + 2 * std::int64_t{columns}) % columns)] = 1;
+                m_marks[std::size_t{row} * m_columns +
+                        static_cast<std::size_t>((first + step + 2 * std::int64_t{m_columns}) % m_columns)] = 1;
     }
 
-    // `a`, `b`, `c` relative to the light.
-    void mark_triangle(const dvec3& a, const dvec3& b, const dvec3& c, int splits) {
+    // `a`, `b`, `c` relative to the light; from anywhere on it.
+    void mark_directions(const dvec3& a, const dvec3& b, const dvec3& c, int splits) {
+        if (m_is_full)
+            return;
+        const auto split = [&](const dvec3& u, const dvec3& v, const dvec3& w) {
+            mark_directions(u, v, w, splits + 1);
+        };
         const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-        const bool at_light = la == 0 || lb == 0 || lc == 0;
+        const double edge = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+        const double nearest = std::max({la, lb, lc}) - edge; // no point of it is nearer
+        const bool at_light = la == 0 || lb == 0 || lc == 0 || (m_frame.reach > 0 && nearest <= m_frame.reach);
         const dvec3 sum = at_light ? dvec3(0) : a / la + b / lb + c / lc;
         const double length = glm::length(sum);
         if (at_light || length < 0.5) { // wider than a hemisphere's worth: split, or give up and take everything
             if (splits == SPLIT_LIMIT)
                 return mark_all();
-            return split_triangle(a, b, c, splits);
+            return split_longest(a, b, c, split);
         }
         const dvec3 center = sum / length;
         // Chords, not cosines: those of small angles are all 1.
         const double chord =
             std::max({glm::distance(center, a / la), glm::distance(center, b / lb), glm::distance(center, c / lc)});
-        if (chord < 2.0 / rows || splits == SPLIT_LIMIT)
-            return mark_cap(center, 2 * std::asin(std::min(1.0, 0.5 * chord)) + ANGLE_SLACK);
-        split_triangle(a, b, c, splits);
+        const double radius = 2 * std::asin(std::min(1.0, 0.5 * chord)) + ANGLE_SLACK +
+                              (m_frame.reach > 0 ? std::asin(m_frame.reach / nearest) : 0.0);
+        if (std::acos(std::clamp(center.y, -1.0, 1.0)) - radius > m_frame.widest())
+            return;
+        if (chord < m_finest || splits == SPLIT_LIMIT)
+            return mark_cap(center, radius);
+        split_longest(a, b, c, split);
+    }
+
+    void mark_starts(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, int splits) {
+        const glm::dvec2 size(m_columns, m_rows);
+        const glm::dvec2 lo = glm::min(glm::min(a, b), c) * size, hi = glm::max(glm::max(a, b), c) * size;
+        if (std::max(hi.x - lo.x, hi.y - lo.y) > 1.0 && splits < SPLIT_LIMIT)
+            return split_longest(a, b, c, [&](const glm::dvec2& u, const glm::dvec2& v, const glm::dvec2& w) {
+                mark_starts(u, v, w, splits + 1);
+            });
+        const auto find_cell = [](double place, std::uint32_t count) {
+            return static_cast<std::uint32_t>(std::clamp(place, 0.0, static_cast<double>(count - 1)));
+        };
+        for (std::uint32_t row = find_cell(lo.y - START_SLACK, m_rows); row <= find_cell(hi.y + START_SLACK, m_rows);
+             ++row)
+            for (std::uint32_t column = find_cell(lo.x - START_SLACK, m_columns);
+                 column <= find_cell(hi.x + START_SLACK, m_columns); ++column)
+                m_marks[std::size_t{row} * m_columns + column] = 1;
     }
 
     // In two, across the longest edge: a sliver becomes a row of small pieces, not a cloud of slivers.
-    void split_triangle(const dvec3& a, const dvec3& b, const dvec3& c, int splits) {
+    template <class Corner, class Use>
+    static void split_longest(const Corner& a, const Corner& b, const Corner& c, const Use& use) {
         const double ab = glm::distance(a, b), bc = glm::distance(b, c), ca = glm::distance(c, a);
         if (bc > ab && bc >= ca)
-            return split_triangle(b, c, a, splits);
+            return split_longest(b, c, a, use);
         if (ca > ab)
-            return split_triangle(c, a, b, splits);
-        const dvec3 middle = (a + b) * 0.5;
-        mark_triangle(a, middle, c, splits + 1);
-        mark_triangle(middle, b, c, splits + 1);
+            return split_longest(c, a, b, use);
+        const Corner middle = (a + b) * 0.5;
+        use(a, middle, c);
+        use(middle, b, c);
     }
+
+    const EmissionFrame& m_frame;
+    std::uint32_t m_rows, m_columns;
+    std::vector<std::uint8_t> m_marks;
+    double m_finest; // chord of what is small enough
+    bool m_is_full = false;
 };
 
-bool is_specular(const shared::Material& material) {
-    const float metallic = material.base_color_metallic.w;
-    return metallic > 0 || material.emission_transmission.w > 0;
-}
-
-ProjectionMap collect_cells(const Marker& marker) {
-    ProjectionMap map{marker.rows, marker.columns, {}, {}};
-    for (std::uint32_t row = 0; row < marker.rows; ++row) {
+ProjectionMap Marker::collect() const {
+    ProjectionMap map{m_rows, m_columns, {}, {}};
+    for (std::uint32_t row = 0; row < m_rows; ++row) {
         const auto first = static_cast<std::uint32_t>(map.cells.size());
-        for (std::uint32_t column = 0; column < marker.columns; ++column)
-            if (marker.marks[std::size_t{row} * marker.columns + column])
+        for (std::uint32_t column = 0; column < m_columns; ++column)
+            if (m_marks[std::size_t{row} * m_columns + column])
                 map.cells.push_back(row << 16 | column);
         map.row_members.emplace_back(first, static_cast<std::uint32_t>(map.cells.size()) - first);
     }
     return map;
 }
 
-Marker mark_scene(const Scene& scene, const dvec3& light, std::uint32_t rows) {
-    Marker marker(rows);
-    for (const shared::Triangle& triangle : scene.triangles) {
-        std::uint32_t material;
-        std::memcpy(&material, &triangle.v1_material.w, sizeof material);
-        if (!is_specular(scene.materials[material]))
-            continue;
-        marker.mark_triangle(dvec3(triangle.v0_object) - light, dvec3(triangle.v1_material) - light,
-                             dvec3(triangle.v2_source) - light, 0);
-    }
-    return marker;
+ProjectionMap mark_scene(const Scene& scene, const EmissionFrame& frame, bool only_specular, std::uint32_t rows) {
+    Marker marker(frame, rows);
+    visit_triangles(scene, only_specular,
+                    [&](const dvec3& a, const dvec3& b, const dvec3& c) { marker.mark_triangle(a, b, c); });
+    return marker.collect();
 }
 
 } // namespace
 
-double ProjectionMap::solid_angle() const {
-    return 4 * std::numbers::pi * static_cast<double>(cells.size()) / (static_cast<double>(rows) * columns);
+double ProjectionMap::find_share() const {
+    return static_cast<double>(cells.size()) / (static_cast<double>(rows) * columns);
 }
 
 ProjectionMap make_full_projection() {
     return {1, 1, {0}, {{0, 1}}};
 }
 
-ProjectionMap project_specular(const Scene& scene, const shared::Light& light) {
-    const dvec3 position(light.position_kind);
-    ProjectionMap map = collect_cells(mark_scene(scene, position, COARSEST_ROWS));
+ProjectionMap project_light(const Scene& scene, const EmissionFrame& frame, bool only_specular) {
+    ProjectionMap map = mark_scene(scene, frame, only_specular, COARSEST_ROWS);
     std::uint32_t rows = COARSEST_ROWS;
     // Four times the cells for each doubling of the rows.
     for (std::size_t cells = map.cells.size(); cells > 0 && cells < ENOUGH_CELLS && rows < FINEST_ROWS; cells *= 4)
         rows *= 2;
-    return rows == COARSEST_ROWS ? map : collect_cells(mark_scene(scene, position, rows));
+    return rows == COARSEST_ROWS ? map : mark_scene(scene, frame, only_specular, rows);
 }
 
 } // namespace photonloupe

@@ -1,28 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which directions a light should shoot in: a grid of equal-solid-angle cells, marked where specular geometry lies.
+// Which part of a light's power is worth shooting: a grid of cells of equal power, marked where what it should meet
+// lies.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "scene/scene.h"
+#include "trace/emission_frame.h"
 
 namespace photonloupe {
 
-// Rows are equal steps of y = cos(angle from +y) from 1 to -1, columns equal steps of azimuth atan2(z, x) from 0.
+// Rows and columns of the unit square of an EmissionFrame; of a point light, rows are equal steps of y from 1 to -1 and
+// columns equal steps of azimuth atan2(z, x) from 0.
 struct ProjectionMap {
     std::uint32_t rows = 1;
     std::uint32_t columns = 1;
     std::vector<std::uint32_t> cells;    // row << 16 | column, row by row
     std::vector<glm::uvec2> row_members; // per row: first entry in cells, marked cells
-    double solid_angle() const;          // of the marked cells, sr
+    double find_share() const;           // of the light's power in marked cells
 };
 
-// Every direction.
+// All of it.
 ProjectionMap make_full_projection();
 
-// Directions from `light` that meet a mirror or dielectric triangle, conservatively: a cell that contains specular
-// geometry is always marked. The grid is refined until enough cells are marked to aim well at small objects.
-ProjectionMap project_specular(const Scene& scene, const shared::Light& light);
+// What meets a mirror or dielectric triangle (of directional light, where not `only_specular`: any triangle),
+// conservatively: a cell that contains such geometry is always marked. The grid is refined until enough cells are
+// marked to aim well at small objects.
+ProjectionMap project_light(const Scene& scene, const EmissionFrame& frame, bool only_specular);
 
 } // namespace photonloupe

@@ -101,6 +101,8 @@ std::vector<std::string> Tracer::list_defines() const {
     defines.push_back("EMISSION " + std::to_string(static_cast<std::uint32_t>(m_settings.emission)));
     if (m_settings.paths)
         defines.emplace_back("RECORD_PATHS");
+    for (std::string& define : list_light_defines(m_scene))
+        defines.push_back(std::move(define));
     if (m_table.emitters.size() > 1)
         defines.emplace_back("HAS_SEVERAL_LIGHTS");
     return defines;
@@ -109,6 +111,12 @@ std::vector<std::string> Tracer::list_defines() const {
 std::string describe_gigabytes(std::uint64_t bytes) {
     char text[32];
     std::snprintf(text, sizeof text, "%.2f GB", static_cast<double>(bytes) * 1e-9);
+    return text;
+}
+
+std::string describe_share(double share) {
+    char text[32];
+    std::snprintf(text, sizeof text, ", %.3g %% land", 100 * share);
     return text;
 }
 
@@ -158,6 +166,7 @@ double Tracer::shoot() {
                        {"emitters", m_emitters},
                        {"cells", m_cells},
                        {"cell_rows", m_cell_rows},
+                       {"emitting", m_buffers.emitting},
                        {"lane_order", m_scratch.lane_order},
                        {"summaries", m_scratch.summaries},
                        {"deposited_flux", m_scratch.deposited_flux},
@@ -287,7 +296,7 @@ void Tracer::require_progress() const {
                          std::to_string(m_report.absorbed) + " were absorbed, " + std::to_string(m_report.truncated) +
                          " were cut off at max_bounces, none reached a diffuse receiver" +
                          (m_settings.store == Store::caustic ? " by way of a specular surface" : "") +
-                         "; check where the light and the receiver are");
+                         "; check where its " + count_lights(m_scene) + " shine, and where the receivers are");
     if (m_report.emitted >= MOST_EMITTED)
         throw SceneError(where + std::to_string(m_photon_count) + " photons were stored by 2^30 emitted, " +
                          std::to_string(m_settings.count) + " asked; ask for fewer, or move the light closer");
@@ -311,8 +320,9 @@ TracedPhotons Tracer::run(const Progress& progress) {
     m_device.compile_ahead(
         {m_kernels.shoot, m_kernels.count, m_kernels.scan, m_kernels.write, m_kernels.sum, m_kernels.scale});
     double milliseconds = 0;
+    std::string stage = "trace photons";
     while (!is_done()) {
-        progress.report("trace photons", std::min(1.0, find_fraction()));
+        progress.report(stage, std::min(1.0, find_fraction()));
         choose_chunk(milliseconds);
         milliseconds = shoot();
         const std::uint32_t blocks = (m_push.count + shared::PATHS_PER_BLOCK - 1) / shared::PATHS_PER_BLOCK;
@@ -324,6 +334,8 @@ TracedPhotons Tracer::run(const Progress& progress) {
             shoot_slowly();
             continue;
         }
+        if (m_report.emitted == kept) // the first chunk says how many land
+            stage += describe_share(static_cast<double>(added.x) / kept);
         m_photon_count += added.x;
         m_vertex_count += added.y;
         require_progress();

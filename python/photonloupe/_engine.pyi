@@ -64,6 +64,9 @@ class Scene:
     def origin(self) -> list[float]: ...
 
     @property
+    def additions(self) -> list[str]: ...
+
+    @property
     def bounds(self) -> tuple: ...
 
     @property
@@ -85,6 +88,11 @@ class Scene:
     def triangle_count(self) -> int: ...
 
     def describe(self) -> str: ...
+
+def add_to_scene(scene: Scene, addition: str) -> Scene:
+    """
+    A copy with a light or a floor more; addition as engine/scene/edit_scene.h has it.
+    """
 
 def load_scene(path: str) -> Scene:
     """Read a glTF scene (.gltf or .glb)."""

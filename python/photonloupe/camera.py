@@ -53,7 +53,7 @@ def check_camera(scene: Scene, camera: str | Camera | None) -> str | dict[str, A
     """
     if isinstance(camera, Camera):
         position, target, up = (
-            check_vector(f"the camera's {name}", getattr(camera, name), _LARGEST)
+            check_vector(f"the camera's {name}", getattr(camera, name), -_LARGEST, _LARGEST)
             for name in ("position", "target", "up")
         )
         return dict(_engine.aim_camera(position, target, up, check_number("yfov", camera.yfov, 1e-4, 3.0)))

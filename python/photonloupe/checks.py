@@ -54,17 +54,6 @@ def check_size(size: Sequence[int], low: int, high: int) -> tuple[int, int]:
     return check_count("size[0]", width, low, high), check_count("size[1]", height, low, high)
 
 
-def check_vector(name: str, values: Any, largest: float = sys.float_info.max) -> list[float]:
-    """Return three finite numbers of at most `largest` either way, or raise `ArgumentError`."""
-    try:
-        numbers = list(values)
-    except TypeError:
-        numbers = []
-    if len(numbers) != 3:
-        raise ArgumentError(f"{name} must be three numbers, not {values!r}")
-    return [check_number(name, number, -largest, largest) for number in numbers]
-
-
 def check_vectors(name: str, values: ArrayLike, width: int = 3) -> NDArray[np.float64]:
     """Return `values` as finite (n, `width`) float64, or raise `ArgumentError` naming the first bad row."""
     try:
@@ -75,6 +64,19 @@ def check_vectors(name: str, values: ArrayLike, width: int = 3) -> NDArray[np.fl
         raise ArgumentError(f"{name} must have shape (n, {width}), not {array.shape}")
     check_finite(name, array)
     return array
+
+
+def check_vector(
+    name: str, values: Any, low: float = -sys.float_info.max, high: float = sys.float_info.max, width: int = 3
+) -> list[float]:
+    """Return `width` finite numbers in [`low`, `high`], or raise `ArgumentError`."""
+    try:
+        numbers = list(values)
+    except TypeError:
+        numbers = []
+    if len(numbers) != width:
+        raise ArgumentError(f"{name} must be {'two' if width == 2 else 'three'} numbers, not {values!r}")
+    return [check_number(name, number, low, high) for number in numbers]
 
 
 def check_rows(ids: ArrayLike, count: int) -> NDArray[np.int64]:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Mapping
 from pathlib import Path
@@ -21,6 +22,7 @@ SUFFIXES = (".exr", ".png")
 # 2^±64 spans every radiance a 32-bit float can hold next to 1.
 MAX_EXPOSURE = 64.0
 _EIGHT_BITS = 255.0
+_FITTING_SHARE = 0.98
 
 
 class Image:
@@ -72,7 +74,21 @@ class Image:
         """Rows."""
         return int(self._pixels.shape[0])
 
-    def save(self, path: str | os.PathLike[str], *, exposure: float | None = None) -> None:
+    def find_exposure(self) -> float:
+        """Find the stops that make all but the brightest fiftieth of the lit pixels fit a PNG, in steps of 0.1."""
+        brightest = self._pixels.max(axis=2)
+        lit = brightest[np.isfinite(brightest) & (brightest > 0.0)]
+        if len(lit) == 0:
+            return 0.0
+        stops = -math.log2(float(np.quantile(lit.astype(np.float64), _FITTING_SHARE)))
+        return round(min(max(stops, -MAX_EXPOSURE), MAX_EXPOSURE), 1)
+
+    def find_clipped_share(self, exposure: float) -> float:
+        """Find the share of the pixels that a PNG of that exposure cannot hold, for a channel is above 1."""
+        with np.errstate(over="ignore"):
+            return float((self._pixels.max(axis=2) * np.float32(2.0**exposure) > 1.0).mean())
+
+    def save(self, path: str | os.PathLike[str], *, exposure: float | str | None = None) -> None:
         """Write an .exr (32-bit float, ZIP) or a .png (clip(linear · 2^exposure), sRGB curve).
 
         Parameters
@@ -80,7 +96,7 @@ class Image:
         path
             Its suffix decides the format.
         exposure
-            In stops, PNG only; default the image's own.
+            In stops, PNG only; ``"auto"``: what `find_exposure` says; default the image's own.
 
         Raises
         ------
@@ -113,9 +129,11 @@ class Image:
             return compare_images(self._pixels, reference._pixels, linear=True)
         return compare_images(encode_srgb(self._pixels), encode_srgb(reference._pixels), linear=False)
 
-    def _choose_exposure(self, exposure: float | None) -> float:
+    def _choose_exposure(self, exposure: float | str | None) -> float:
         if exposure is None:
             return self.exposure
+        if exposure == "auto":
+            return self.find_exposure()
         return check_number("exposure", exposure, -MAX_EXPOSURE, MAX_EXPOSURE)
 
     def _repr_png_(self) -> bytes:

@@ -26,6 +26,8 @@ def describe_origin(device: Device | None, scene: Scene | None, settings: Mappin
     if scene is not None:
         origin["scene_path"] = str(scene.path.absolute())
         origin["scene_hash"] = scene.hash
+        if scene.additions:
+            origin["scene_additions"] = scene.additions
     origin["settings"] = dict(settings)
     return origin
 
@@ -42,6 +44,7 @@ def reload_scene(provenance: Mapping[str, Any]) -> Scene:
     if not path:
         raise PhotonLoupeError("this map knows of no scene")
     scene = load_scene(path)
+    scene.restore(provenance.get("scene_additions", []))
     if scene.hash != provenance.get("scene_hash"):
         raise PhotonLoupeError(
             f"{path} has changed since this map was made; trace it anew (its photons as they are can still be relaxed "

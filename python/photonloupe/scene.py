@@ -3,14 +3,30 @@
 
 from __future__ import annotations
 
+import json
+import math
 import os
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from photonloupe import _engine
+from photonloupe.checks import check_choice, check_number, check_vector
+
+_LARGEST = 1e30  # of a coordinate or a power
+
+# What is told of each kind of light that can be added.
+LIGHTS = {
+    "point": ("position", "intensity", "color"),
+    "spot": ("position", "direction", "intensity", "color", "cone"),
+    "directional": ("direction", "intensity", "color"),
+    "area": ("position", "direction", "intensity", "color", "size"),
+    "environment": ("intensity", "color"),
+    "auto": (),
+}
 
 
 class Scene:
@@ -46,7 +62,7 @@ class Scene:
 
     @property
     def lights(self) -> list[dict[str, Any]]:
-        """One entry per light: name, kind, position, intensity (W/sr per channel)."""
+        """One entry per light: name, kind, position, intensity per channel, and what its kind has (`add_light`)."""
         return [dict(row) for row in self._native.lights]
 
     @property
@@ -63,6 +79,86 @@ class Scene:
     def report(self) -> dict[str, Any]:
         """What was ignored, changed (notes), required of the kernels, and left out of them."""
         return dict(self._native.report)
+
+    def add_light(
+        self,
+        kind: str,
+        *,
+        position: ArrayLike = (0.0, 0.0, 0.0),
+        direction: ArrayLike = (0.0, -1.0, 0.0),
+        intensity: float = 1.0,
+        color: ArrayLike = (1.0, 1.0, 1.0),
+        size: ArrayLike = (1.0, 1.0),
+        cone: ArrayLike = (0.0, math.pi / 4.0),
+    ) -> None:
+        """Add a light to what the file holds; photon maps and pictures made before stay as they are.
+
+        Parameters
+        ----------
+        kind
+            ``"point"``, ``"spot"``, ``"directional"``, ``"area"`` or ``"environment"``, the same from all around;
+            ``"auto"``: a point light above and before the
+            bounds, of which nothing else is asked.
+        position
+            (3,) m; of an area light the middle.
+        direction
+            (3,), where a spot, directional or area light shines.
+        intensity
+            On the axis: W/sr; directional: W/m² across the light; area, environment: radiance, W/(m²·sr).
+        color
+            (3,) factors of the channels.
+        size
+            (2,) m, sides of an area light.
+        cone
+            (2,) radians from a spot's axis: where it begins to fade, and where it is dark, up to π/2.
+
+        Raises
+        ------
+        ArgumentError
+            If a value is out of range.
+        SceneError
+            If the direction is zero, or the cone is inside out.
+
+        Examples
+        --------
+        >>> import photonloupe as pl
+        >>> scene = pl.load_scene("scenes/ring/ring.gltf")
+        >>> scene.add_light("spot", position=(0, 2, 0), intensity=5.0, cone=(0.1, 0.3))
+        >>> [light["kind"] for light in scene.lights]
+        ['point', 'spot']
+        """
+        told = {
+            "kind": check_choice("kind", kind, LIGHTS),
+            "position": check_vector("position", position, -_LARGEST, _LARGEST),
+            "direction": check_vector("direction", direction, -_LARGEST, _LARGEST),
+            "intensity": check_number("intensity", intensity, 0.0, _LARGEST),
+            "color": check_vector("color", color, 0.0, _LARGEST),
+            "size": check_vector("size", size, 1e-30, _LARGEST, width=2),
+            "cone": check_vector("cone", cone, 0.0, math.pi / 2.0, width=2),
+        }
+        self.restore([{"add": "light", **{name: told[name] for name in ("kind", *LIGHTS[kind])}}])
+
+    def add_floor(self, y: float | None = None) -> None:
+        """Add a diffuse square of albedo 0.5 below the scene, four times as wide.
+
+        Parameters
+        ----------
+        y
+            Its height, m; default a thousandth of the scene's radius below the lowest point.
+        """
+        self.restore([{"add": "floor", "y": None if y is None else check_number("y", y, -_LARGEST, _LARGEST)}])
+
+    @property
+    def additions(self) -> list[dict[str, Any]]:
+        """What was added to the file's, in order."""
+        return [json.loads(text) for text in self._native.additions]
+
+    def restore(self, additions: Sequence[Mapping[str, Any]]) -> None:
+        """Add what another scene of the same file has as `additions`."""
+        native = self._native
+        for addition in additions:
+            native = _engine.add_to_scene(native, json.dumps(addition, sort_keys=True))
+        self._native = native
 
     @property
     def triangle_count(self) -> int:

@@ -90,7 +90,8 @@ bool follow_surface(inout Branch branch, Surface surface, float distance) {
 #ifdef HAS_ABSORPTION
     branch.weight *= transmit_interior(surface, branch.ray.direction, distance);
 #endif
-    seen_emission += branch.weight * surface.material.emission_transmission.rgb;
+    if (surface.material.roughness_thin.z > 0.0 || dot(branch.ray.direction, surface.geometric_normal) < 0.0)
+        seen_emission += branch.weight * surface.material.emission_transmission.rgb;
     float diffuse = weigh_diffuse(surface.material);
     if (diffuse > 0.0) record_hit(surface, normal, branch.weight * diffuse);
     if (diffuse >= 1.0 || branch.bounce >= settings.max_bounces) return false;
@@ -121,6 +122,7 @@ void main() {
     bool alive = true;
     while (alive) {
         Hit hit = intersect_scene(branch.ray, INFINITY, false);
+        if (hit.t == INFINITY) seen_emission += branch.weight * settings.environment.rgb;
         alive = hit.t < INFINITY && follow_surface(branch, load_surface(hit), hit.t);
         if (!alive && waiting_count > 0u) {
             --waiting_count;

@@ -7,6 +7,10 @@
 #include "shared/turns.glsl"
 #pragma binding texel geometry
 
+// Bound on the rounding error of a point on a triangle and of meeting the triangle again from there, as a share of
+// the triangle's largest coordinate: 7 roundings in the barycentric sum, 7 in the intersection, doubled.
+const float POSITION_ERROR = 28.0 * 5.9604645e-8;
+
 struct Ray {
     vec3 origin;
     vec3 direction; // unit

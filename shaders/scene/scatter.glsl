@@ -81,13 +81,3 @@ vec3 transmit_interior(Surface surface, vec3 direction, float distance) {
     vec3 depth = -surface.material.absorption_ior.rgb * distance;
     return vec3(exp_exact(depth.r), exp_exact(depth.g), exp_exact(depth.b));
 }
-
-// Cosine-weighted direction about the unit normal n.
-vec3 sample_cosine(vec3 n, float u1, float u2) {
-    float s, c;
-    sin_cos(2.0 * PI * u2, s, c);
-    float radius = sqrt(u1);
-    vec3 u, v;
-    build_basis(n, u, v);
-    return normalize_safely(radius * c * u + radius * s * v + sqrt(max(0.0, 1.0 - u1)) * n);
-}

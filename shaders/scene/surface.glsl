@@ -6,10 +6,6 @@
 #pragma binding texel shading_normals
 #pragma binding texel materials
 
-// Bound on the rounding error of a point on a triangle and of meeting the triangle again from there, as a share of
-// the triangle's largest coordinate: 7 roundings in the barycentric sum, 7 in the intersection, doubled.
-const float POSITION_ERROR = 28.0 * 5.9604645e-8;
-
 struct Surface {
     vec3 position;
     float error;            // metres: rays start this far off the surface

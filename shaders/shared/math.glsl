@@ -88,3 +88,13 @@ void build_basis(vec3 n, out vec3 u, out vec3 v) {
     u = vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x);
     v = vec3(b, s + n.y * n.y * a, -n.y);
 }
+
+// Cosine-weighted direction about the unit normal n.
+vec3 sample_cosine(vec3 n, float u1, float u2) {
+    float s, c;
+    sin_cos(2.0 * PI * u2, s, c);
+    float radius = sqrt(u1);
+    vec3 u, v;
+    build_basis(n, u, v);
+    return normalize_safely(radius * c * u + radius * s * v + sqrt(max(0.0, 1.0 - u1)) * n);
+}

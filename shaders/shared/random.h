@@ -55,8 +55,9 @@ SHARED_INLINE uint scramble_owen(uint x, uint seed) {
     return reverse_bits(x);
 }
 
-// The first three dimensions of the Sobol sequence as 32-bit fractions (dimension 0: van der Corput; 1: x + 1;
-// 2: x² + x + 1 with m = 1, 3, its matrix built column by column from the recurrence).
+// The first five dimensions of the Sobol sequence as 32-bit fractions (dimension 0: van der Corput; 1: x + 1;
+// 2: x² + x + 1 with m = 1, 3; 3: x³ + x + 1 with m = 1, 3, 1; 4: x³ + x² + 1 with m = 1, 1, 1; their matrices are built
+// column by column from the recurrence).
 SHARED_INLINE uint sobol_bits(uint index, uint dimension) {
     if (dimension == 0u)
         return reverse_bits(index);
@@ -70,6 +71,20 @@ SHARED_INLINE uint sobol_bits(uint index, uint dimension) {
         return x ^ ((x << 16u) & 0xffff0000u);
     }
     uint result = 0u;
+    if (dimension > 2u) {
+        uint oldest = 0x80000000u;
+        uint middle = dimension == 3u ? 0xc0000000u : 0x40000000u;
+        uint newest = 0x20000000u;
+        for (; index != 0u; index >>= 1u) {
+            if ((index & 1u) != 0u)
+                result ^= oldest;
+            uint next = (dimension == 3u ? middle : newest) ^ oldest ^ (oldest >> 3u);
+            oldest = middle;
+            middle = newest;
+            newest = next;
+        }
+        return result;
+    }
     uint older = 0x80000000u;
     uint newer = 0xc0000000u;
     for (; index != 0u; index >>= 1u) {

@@ -25,6 +25,7 @@ struct EyeSettings {
     uint seed;
     uint slot_count;    // diffuse hits one sample may have
     uint max_bounces;
+    vec4 environment;   // rgb radiance beyond everything, w unused
 };
 
 struct FilmSettings {
@@ -38,8 +39,8 @@ struct FilmSettings {
     uint uses_direct;
     uint uses_emission;
     uint uses_colors;   // false color: of a surface's color only its luminance counts
+    uint seed;
     uint pad0;
-    uint pad1;
 };
 
 struct PlotSettings {

@@ -28,14 +28,27 @@ struct Material {
     vec4 base_color_metallic;   // rgb linear base colour, w metallic
     vec4 absorption_ior;        // rgb absorption coefficient of the interior in 1/m (Beer-Lambert), w index of refraction
     vec4 emission_transmission; // rgb emitted radiance W/(m² sr), w transmission
-    vec4 roughness_thin;        // x roughness, y 1 = thin (no volume), zw unused
+    vec4 roughness_thin;        // x roughness, y 1 = thin (no volume), z 1 = two-sided (emission), w unused
 };
 
 const uint LIGHT_POINT = 0u;
+const uint LIGHT_SPOT = 1u;
+const uint LIGHT_DIRECTIONAL = 2u;
+const uint LIGHT_AREA = 3u;
+const uint LIGHT_ENVIRONMENT = 4u; // the same from all around
 
 struct Light {
-    vec4 position_kind; // xyz position, w kind as bits (LIGHT_POINT …)
-    vec4 intensity;     // rgb radiant intensity in W/sr, w unused
+    vec4 position_kind; // xyz position (area: the middle), w kind as bits (LIGHT_POINT …)
+    vec4 intensity;     // rgb radiant intensity in W/sr; directional: irradiance, W/m²; area, environment: radiance, W/(m² sr); w unused
+    vec4 direction;     // xyz unit, where a spot or directional light shines; w unused
+    vec4 cone;          // spot: 1 - cos of the inner and the outer angle; area: m², first triangle and their number as bits, sides that shine
+};
+
+// A triangle of an area light.
+struct EmittingTriangle {
+    vec4 v0_cumulative; // xyz vertex 0, w share of the light's area up to and with this one
+    vec4 v1;            // xyz vertex 1, w unused
+    vec4 v2;            // xyz vertex 2, w unused
 };
 
 // Entries of a traversal's stack; the builder keeps every tree shallower (BVH_MAX_DEPTH in engine/scene/bvh.h).

@@ -50,12 +50,16 @@ struct TraceSettings {
     uint pad2;
 };
 
-// A light with its projection map: directions are drawn from marked cells of a rows × columns grid of equal solid angle.
+// A light with its projection map: photons are drawn from marked cells of a rows × columns grid of equal power.
 struct LightEmission {
-    vec4 position_kind; // xyz, kind as bits
+    vec4 position_kind; // xyz (directional: corner of the plane of starts), kind as bits
     vec4 flux_cumulative; // rgb: flux in W carried by a photon of this light times the number emitted; w: cumulative probability
     uvec4 grid;         // rows, columns, first entry in `cells`, number of marked cells
-    uvec4 first_row;    // x: first entry in `cell_rows`, y: the light's index in the scene
+    uvec4 first_row;    // x: first entry in `cell_rows`, y: the light's index in the scene; area: z: first triangle, w: their number
+    vec4 u_axis;        // xyz: EmissionFrame's u, axis and v
+    vec4 v_axis;
+    vec4 axis_sides;    // area: w sides that shine
+    vec4 cone;          // spot: xy 1 - cos of the inner and the outer angle; environment: radius of the discs of starts, their distance
 };
 
 // One path's end: outcome, recorded vertices, photons stored, vertices of the stored photons' paths together.

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Emission: from the emitted index to a light and a direction inside its projection map's marked cells (METHODS §1).
-// The unit square is mapped onto the marked cells row by row, so that its stratification is kept.
+// Emission: from the emitted index to a light and a place inside its projection map's marked cells, which stands for a
+// direction or a start (METHODS §1; engine/trace/emission_frame.h). The unit square is mapped onto the marked cells row by
+// row, so that its stratification is kept.
+#ifdef HAS_AREA_LIGHTS
+#include "scene/emitting.glsl"
+#endif
 
 struct Emission {
     uint light;
     vec3 origin;
     vec3 direction;
+    vec3 normal; // of its surface; a light that has none: the direction
     vec3 flux; // W, times the number emitted
 };
 
@@ -30,9 +35,96 @@ uint choose_light(uint index) {
     return 0u;
 #else
     float u = to_unit_float(sample_emission(index, 2u));
-    uint light = 0u;
-    while (light + 1u < settings.light_count && u >= emitters[light].flux_cumulative.w) ++light;
-    return light;
+    uint low = 0u;
+    uint high = settings.light_count - 1u;
+    while (low < high) { // the first whose cumulative probability is above u
+        uint middle = (low + high) / 2u;
+        if (u < emitters[middle].flux_cumulative.w) high = middle;
+        else low = middle + 1u;
+    }
+    return low;
+#endif
+}
+
+// A place on the square: columns and rows as fractions.
+struct Place {
+    float column, row;
+};
+
+vec3 turn_about(LightEmission light, float column, float cosine, float sine) {
+    float s, c;
+    sin_cos(2.0 * PI * column, s, c);
+    return normalize_safely(sine * c * light.u_axis.xyz + cosine * light.axis_sides.xyz + sine * s * light.v_axis.xyz);
+}
+
+// Of x in [0, 1]: two of Newton's steps from the driver's rough one.
+float find_cube_root(float x) {
+    if (x < 1e-18) return 0.0;
+    float root = pow(x, 1.0 / 3.0);
+    for (uint i = 0u; i < 2u; ++i) root -= (root - x / (root * root)) / 3.0;
+    return root;
+}
+
+// Inner cone: 1 - cos grows with the share of the power; ramp: its cube root.
+void emit_spot(inout Emission emission, LightEmission light, Place place) {
+    float inner = light.cone.x;
+    float ramp = light.cone.y - inner;
+    float beyond = place.row * (inner + ramp / 3.0); // 1 - cos
+    if (beyond > inner) beyond = light.cone.y - ramp * find_cube_root(1.0 - 3.0 * (beyond - inner) / ramp);
+    float sine = sqrt(max(0.0, beyond * (2.0 - beyond)));
+    emission.direction = turn_about(light, place.column, 1.0 - beyond, sine);
+}
+
+#ifdef HAS_AREA_LIGHTS
+// Cosine-weighted on the sides that shine.
+void emit_area(inout Emission emission, LightEmission light, Place place, uint index) {
+    vec2 u = vec2(to_unit_float(sample_emission(index, 3u)), to_unit_float(sample_emission(index, 4u)));
+    EmittingPoint point = sample_emitting(light.first_row.z, light.first_row.w, u);
+    bool is_back = light.axis_sides.w > 1.0 && place.row > 0.5;
+    float sine2 = light.axis_sides.w > 1.0 ? 2.0 * (is_back ? 1.0 - place.row : place.row) : place.row;
+    float cosine = sqrt(max(0.0, 1.0 - sine2));
+    if (light.grid.x > 1u) { // aimed: one normal serves all of it
+        emission.direction = turn_about(light, place.column, is_back ? -cosine : cosine, sqrt(sine2));
+    } else {
+        vec3 a, b;
+        build_basis(point.normal, a, b);
+        float s, c;
+        sin_cos(2.0 * PI * place.column, s, c);
+        emission.direction = normalize_safely(sqrt(sine2) * (c * a + s * b) + (is_back ? -cosine : cosine) * point.normal);
+    }
+    emission.normal = is_back ? -point.normal : point.normal;
+    emission.origin = point.position + point.error * emission.normal;
+}
+#endif
+
+// On a disc across the direction, before everything.
+void start_around(inout Emission emission, LightEmission light, uint index) {
+    float s, c;
+    sin_cos(2.0 * PI * to_unit_float(sample_emission(index, 4u)), s, c);
+    float radius = light.cone.x * sqrt(to_unit_float(sample_emission(index, 3u)));
+    vec3 a, b;
+    build_basis(emission.direction, a, b);
+    emission.origin += radius * (c * a + s * b) - light.cone.y * emission.direction;
+}
+
+// Kinds other than point lights; of those nothing but what the scene has is compiled.
+void emit_otherwise(inout Emission emission, LightEmission light, Place place, uint index) {
+    uint kind = floatBitsToUint(light.position_kind.w);
+#ifdef HAS_SPOT_LIGHTS
+    if (kind == LIGHT_SPOT) emit_spot(emission, light, place);
+#endif
+#ifdef HAS_DIRECTIONAL_LIGHTS
+    if (kind == LIGHT_DIRECTIONAL) {
+        emission.direction = light.axis_sides.xyz;
+        emission.origin += place.column * light.u_axis.xyz + place.row * light.v_axis.xyz;
+    }
+#endif
+#ifdef HAS_ENVIRONMENT
+    if (kind == LIGHT_ENVIRONMENT) start_around(emission, light, index);
+#endif
+    emission.normal = emission.direction;
+#ifdef HAS_AREA_LIGHTS
+    if (kind == LIGHT_AREA) emit_area(emission, light, place, index);
 #endif
 }
 
@@ -54,6 +146,10 @@ Emission emit_photon(uint index) {
     float radius = sqrt(max(0.0, (1.0 - y) * (1.0 + y)));
     emission.direction = normalize_safely(vec3(radius * cosine, y, radius * sine));
     emission.origin = light.position_kind.xyz;
+    emission.normal = emission.direction;
     emission.flux = light.flux_cumulative.rgb;
+#if defined(HAS_SPOT_LIGHTS) || defined(HAS_DIRECTIONAL_LIGHTS) || defined(HAS_AREA_LIGHTS) || defined(HAS_ENVIRONMENT)
+    emit_otherwise(emission, light, Place((float(column) + column_rest) / float(light.grid.y), (float(row) + along) / float(light.grid.x)), index);
+#endif
     return emission;
 }

@@ -97,8 +97,7 @@ PathState start_path(uint index, uint slot) {
     path.photon_count = 0u;
     path.photon_vertex_count = 0u;
 #ifdef RECORD_PATHS
-    // A point light has no surface: its vertex's normal is the primal direction.
-    write_vertex(path, emission.origin, INTERACTION_END, NO_OBJECT, emission.direction, 0.0, emission.flux, false);
+    write_vertex(path, emission.origin, INTERACTION_END, NO_OBJECT, emission.normal, 0.0, emission.flux, false);
 #endif
     return path;
 }

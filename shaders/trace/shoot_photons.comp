@@ -3,7 +3,7 @@
 // Inputs: scene, emitters, cells, cell_rows (projection maps), lane_order (coherent order of a chunk).
 // Outputs: summaries, deposited_flux, lost_flux, and per slot scratch_position, scratch_normal, scratch_power.
 // Defines: STORE_MODE, EMISSION, RECORD_PATHS (keep specular vertices too), HAS_DIELECTRIC, HAS_MIRROR,
-// HAS_ABSORPTION, HAS_SEVERAL_LIGHTS.
+// HAS_ABSORPTION, HAS_SEVERAL_LIGHTS, HAS_SPOT_LIGHTS, HAS_DIRECTIONAL_LIGHTS, HAS_AREA_LIGHTS (then also emitting), HAS_ENVIRONMENT.
 #include "shared/prelude.glsl"
 #include "shared/random.h"
 #include "shared/trace.h"

@@ -33,7 +33,7 @@ const std::map<std::string, HostStruct> HOST_STRUCTS{
     STRUCT(GatherSettings),  STRUCT(RepelSettings),    STRUCT(DescribeSettings), STRUCT(MoveSettings),
     STRUCT(CrossingJob),     STRUCT(CrossingSettings), STRUCT(CoverageSettings), STRUCT(BlendSettings),
     STRUCT(PixelSettings),   STRUCT(SurfaceSettings),  STRUCT(CellSettings),     STRUCT(SplatSettings),
-    STRUCT(ResolveSettings), STRUCT(TreeBracket),
+    STRUCT(ResolveSettings), STRUCT(TreeBracket),      STRUCT(EmittingTriangle),
 };
 
 std::vector<std::uint32_t> compile(const KernelVariant& variant, std::uint64_t by_address = 0) {

@@ -95,12 +95,15 @@ TEST(load_materials, an_attenuation_distance_below_floats_is_refused) {
     EXPECT_THROW(load_with_material(material.dump().c_str()), SceneError);
 }
 
-TEST(load_materials, emission_is_scaled_by_its_strength_and_listed) {
+TEST(load_materials, emission_is_scaled_by_its_strength_and_shines) {
     const Scene scene = load_with_material(R"({"name": "lamp", "emissiveFactor": [1, 0.5, 0],
         "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 8}}})");
     EXPECT_EQ(glm::vec3(scene.materials[0].emission_transmission), glm::vec3(8, 4, 0));
     EXPECT_TRUE(scene.report.has_emission);
-    EXPECT_TRUE(contains(scene.report.ignored, "material \"lamp\": its emission is seen by cameras but"));
+    ASSERT_EQ(scene.lights.size(), 1u);
+    EXPECT_STREQ(name_kind(scene.lights[0]), "area");
+    EXPECT_EQ(glm::vec3(scene.lights[0].intensity), glm::vec3(8, 4, 0));
+    EXPECT_EQ(scene.lights[0].cone.x, 0.5f); // m²
 }
 
 TEST(load_lights, a_point_light_is_placed_by_its_node_in_watts_per_steradian) {

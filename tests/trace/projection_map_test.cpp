@@ -31,6 +31,10 @@ shared::Light make_light(glm::vec3 position) {
     return light;
 }
 
+ProjectionMap project(const Scene& scene, const shared::Light& light) {
+    return project_light(scene, frame_emission(scene, light, true), true);
+}
+
 std::uint32_t find_cell(const ProjectionMap& map, const glm::dvec3& toward) {
     const glm::dvec3 direction = glm::normalize(toward);
     const auto row = std::min(map.rows - 1, std::uint32_t((1 - direction.y) * 0.5 * map.rows));
@@ -54,7 +58,7 @@ std::vector<glm::dvec3> draw_points(const Corners& corners, int count, std::mt19
 }
 
 void expect_covered(const std::vector<Corners>& triangles, glm::vec3 position, int points_each = 300) {
-    const ProjectionMap map = project_specular(make_mirrors(triangles), make_light(position));
+    const ProjectionMap map = project(make_mirrors(triangles), make_light(position));
     const std::set<std::uint32_t> cells(map.cells.begin(), map.cells.end());
     std::mt19937 random(1);
     for (const Corners& corners : triangles)
@@ -125,17 +129,17 @@ TEST(ProjectionMap, covers_geometry_that_touches_the_light) {
 }
 
 TEST(ProjectionMap, of_everything_is_the_whole_sphere) {
-    EXPECT_DOUBLE_EQ(make_full_projection().solid_angle(), SPHERE);
+    EXPECT_DOUBLE_EQ(make_full_projection().find_share(), 1);
 }
 
 TEST(ProjectionMap, of_a_closed_mirror_is_the_whole_sphere) {
     const Scene scene = make_mirrors(make_ball(2, 0.1f, 7));
-    EXPECT_DOUBLE_EQ(project_specular(scene, make_light({0, 0, 0})).solid_angle(), SPHERE);
+    EXPECT_DOUBLE_EQ(project(scene, make_light({0, 0, 0})).find_share(), 1);
 }
 
 TEST(ProjectionMap, solid_angle_is_the_sum_of_its_cells) {
-    const ProjectionMap map = project_specular(make_mirrors(draw_triangles(10, 0.2f, 1, 8)), make_light({0, 0, 0}));
-    EXPECT_DOUBLE_EQ(map.solid_angle(), double(map.cells.size()) * SPHERE / map.rows / map.columns);
+    const ProjectionMap map = project(make_mirrors(draw_triangles(10, 0.2f, 1, 8)), make_light({0, 0, 0}));
+    EXPECT_DOUBLE_EQ(map.find_share() * SPHERE, double(map.cells.size()) * SPHERE / map.rows / map.columns);
 }
 
 // Van Oosterom and Strackee 1983.
@@ -150,19 +154,19 @@ TEST(ProjectionMap, exceeds_the_geometry_by_its_border_only) {
     for (float size : {0.05f, 0.2f, 1.0f}) {
         const Corners corners{glm::vec3(1, -size, -size), glm::vec3(1, size, -size), glm::vec3(1, 0, size)};
         const double exact = find_solid_angle(corners);
-        const double marked = project_specular(make_mirrors({corners}), make_light({0, 0, 0})).solid_angle();
+        const double marked = project(make_mirrors({corners}), make_light({0, 0, 0})).find_share() * SPHERE;
         EXPECT_GT(marked, exact) << size;
         EXPECT_LT(marked, exact * 1.25) << size;
     }
 }
 
 TEST(ProjectionMap, leaves_out_what_is_not_specular) {
-    const ProjectionMap map = project_specular(make_scene(draw_triangles(10, 0.2f, 1, 9)), make_light({0, 0, 0}));
+    const ProjectionMap map = project(make_scene(draw_triangles(10, 0.2f, 1, 9)), make_light({0, 0, 0}));
     EXPECT_TRUE(map.cells.empty());
 }
 
 TEST(ProjectionMap, lists_its_cells_row_by_row) {
-    const ProjectionMap map = project_specular(make_mirrors(draw_triangles(10, 0.2f, 1, 10)), make_light({0, 0, 0}));
+    const ProjectionMap map = project(make_mirrors(draw_triangles(10, 0.2f, 1, 10)), make_light({0, 0, 0}));
     ASSERT_EQ(map.row_members.size(), map.rows);
     std::uint32_t next = 0;
     for (std::uint32_t row = 0; row < map.rows; ++row) {

@@ -5,12 +5,21 @@ from __future__ import annotations
 
 import argparse
 import json
+import logging
+import math
 import sys
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
+
+from photonloupe.errors import ArgumentError
+from photonloupe.scene import Scene, load_scene
+
+LOG = logging.getLogger("photonloupe")
+
+_MOST_TOLD = 4  # features of a file that are left out
 
 EXIT_OK = 0
 EXIT_NO = 1
@@ -47,6 +56,74 @@ def add_common_options(parser: argparse.ArgumentParser) -> None:
 def add_device_option(parser: argparse.ArgumentParser) -> None:
     """Add ``--device``."""
     parser.add_argument("--device", default="auto", metavar="D", help="index or part of a name; default: the best")
+
+
+def add_scene_options(parser: argparse.ArgumentParser) -> None:
+    """Add what a scene may lack."""
+    parser.add_argument(
+        "--light",
+        action="append",
+        default=[],
+        metavar="LIGHT",
+        help="add 'point X,Y,Z [W/sr]', 'spot X,Y,Z DX,DY,DZ [W/sr [INNER,OUTER degrees]]', "
+        "'directional DX,DY,DZ [W/m²]', 'area X,Y,Z DX,DY,DZ W,H [W/(m² sr)]', "
+        "'environment [W/(m² sr)]', or 'auto', one that suits the scene",
+    )
+    parser.add_argument("--floor", action="store_true", help="add a diffuse floor below the scene")
+
+
+def open_scene(arguments: argparse.Namespace, path: str) -> Scene:
+    """Load a scene and add what was asked for."""
+    scene = load_scene(path)
+    for text in arguments.light:
+        add_light(scene, text)
+    if arguments.floor:
+        scene.add_floor()
+    return scene
+
+
+def warn_ignored(scene: Scene) -> None:
+    """Say once what of the file is not modeled; that plaster does not shine is not worth a warning."""
+    ignored = [line for line in scene.report["ignored"] if "specular lobe" not in line]
+    if ignored:
+        more = f" and {len(ignored) - _MOST_TOLD} more" if len(ignored) > _MOST_TOLD else ""
+        told = "; ".join(ignored[:_MOST_TOLD])
+        LOG.warning(f"{scene.path}: {told}{more} (photonloupe doctor {scene.path} lists everything)")
+
+
+# After its kind: what each further part of a light's text says.
+_LIGHT_PARTS = {
+    "point": ("position", "intensity"),
+    "spot": ("position", "direction", "intensity", "cone"),
+    "directional": ("direction", "intensity"),
+    "area": ("position", "direction", "size", "intensity"),
+    "environment": ("intensity",),
+    "auto": (),
+}
+
+
+def add_light(scene: Scene, text: str) -> None:
+    """Add the light that an option describes.
+
+    Raises
+    ------
+    ArgumentError
+        If it describes none.
+    """
+    kind, *parts = text.split()[:8] or [""]
+    names = _LIGHT_PARTS.get(kind)
+    if names is None or len(parts) > len(names):
+        raise ArgumentError(f"--light {text!r} is no light; write for example --light 'point 0,2,0 10' or --light auto")
+    told: dict[str, Any] = {}
+    for name, part in zip(names, parts, strict=False):
+        try:
+            numbers = [float(number) for number in part.split(",")]
+        except ValueError:
+            raise ArgumentError(f"--light {text!r}: {part!r} is not numbers with commas between them") from None
+        told[name] = numbers[0] if name == "intensity" and len(numbers) == 1 else numbers
+    if "cone" in told:
+        told["cone"] = [math.radians(angle) for angle in told["cone"]]
+    scene.add_light(kind, **told)
 
 
 def choose_progress() -> bool:

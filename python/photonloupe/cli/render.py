@@ -6,6 +6,7 @@ from __future__ import annotations
 import argparse
 import logging
 from pathlib import Path
+from typing import Any
 
 import photonloupe as pl
 from photonloupe.checks import check_count, check_number
@@ -14,8 +15,11 @@ from photonloupe.cli.common import (
     QUALITIES,
     Stopwatch,
     add_device_option,
+    add_scene_options,
     choose_progress,
+    open_scene,
     print_result,
+    warn_ignored,
 )
 from photonloupe.cli.script import add_value_options, parse_values
 from photonloupe.device import open_device
@@ -26,6 +30,8 @@ from photonloupe.scripting import check_values
 from photonloupe.settings import add_setting_options, list_settings, read_setting_options
 
 LOG = logging.getLogger("photonloupe")
+
+_MANY_CLIPPED = 0.2
 
 SUMMARY = "trace a scene and render it"
 DESCRIPTION = "Trace photons through a glTF scene, gather them, and write an .exr (linear radiance) or a .png."
@@ -51,6 +57,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="relax the photons, constrained by the script's parameters, else in world space; default STEPS: the best",
     )
     add_setting_options(parser, "render")
+    add_scene_options(parser)
     parser.add_argument("--camera", metavar="NAME", help="default: the scene's first")
     parser.add_argument(
         "--quality",
@@ -58,7 +65,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         default="balanced",
         help="sets --photons, --samples and --k where they are not given; default balanced",
     )
-    parser.add_argument("--exposure", type=float, default=0.0, metavar="STOPS", help="of a .png; default 0")
+    parser.add_argument("--exposure", default="0", metavar="STOPS", help="of a .png, or 'auto'; default 0")
     add_device_option(parser)
 
 
@@ -84,15 +91,27 @@ def _find_photons(
         count = QUALITIES[arguments.quality].photons if arguments.photons is None else arguments.photons
         return pl.trace_photons(scene, count, seed=getattr(arguments, "seed", None), device=device, progress=progress)
     photons = pl.load_photons(arguments.map, device=device)
+    if not scene.additions:
+        scene.restore(photons.provenance.get("scene_additions", []))
     if photons.provenance.get("scene_hash", scene.hash) != scene.hash:
         LOG.warning(f"{arguments.map} was not traced in {arguments.scene} as it is now; its light may not fit")
     return photons
 
 
+def _has_no_caustic(arguments: argparse.Namespace, scene: pl.Scene, settings: dict[str, Any]) -> bool:
+    """Tell whether the default picture would be refused, for no light goes by way of anything specular."""
+    asked = (arguments.map, arguments.script, arguments.relax)
+    specular = {"mirrors", "dielectrics", "thin glass"} & set(scene.report["requires"])
+    is_asked = settings.get("mode", "composite") == "composite" and asked == (None, None, None)
+    return is_asked and bool(scene.lights) and not specular
+
+
 def run(arguments: argparse.Namespace) -> int:
     """Run the verb."""
     output = check_image_path(arguments.output)
-    exposure = check_number("--exposure", arguments.exposure, -MAX_EXPOSURE, MAX_EXPOSURE)
+    exposure: float | str = "auto"
+    if arguments.exposure != "auto":
+        exposure = check_number("--exposure", arguments.exposure, -MAX_EXPOSURE, MAX_EXPOSURE)
     # Given without a number it is True.
     steps = None if arguments.relax is True else arguments.relax
     if steps is not None:
@@ -109,7 +128,11 @@ def run(arguments: argparse.Namespace) -> int:
     watch = Stopwatch()
     progress = choose_progress()
     with watch.measure("load"):
-        scene = pl.load_scene(arguments.scene)
+        scene = open_scene(arguments, arguments.scene)
+    warn_ignored(scene)
+    if _has_no_caustic(arguments, scene, settings):
+        LOG.warning(f"{arguments.scene} has nothing specular, so no caustic: the picture is direct light alone")
+        settings["mode"], is_direct = "direct", True
     with watch.measure("device"):
         device = open_device(arguments.device)
     photons = None
@@ -133,6 +156,13 @@ def run(arguments: argparse.Namespace) -> int:
         )
     with watch.measure("save"):
         image.save(output, exposure=exposure)
+    if output.suffix.lower() == ".png" and not isinstance(exposure, str):
+        clipped = image.find_clipped_share(exposure)
+        if clipped > _MANY_CLIPPED:
+            LOG.warning(
+                f"{clipped:.0%} of the pixels are brighter than a .png can show; --exposure auto would be "
+                f"{image.find_exposure():g}, an .exr holds everything"
+            )
     result = {
         "output": str(output),
         "width": image.width,

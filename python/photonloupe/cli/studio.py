@@ -9,7 +9,7 @@ from pathlib import Path
 
 import photonloupe as pl
 from photonloupe.checks import check_count, check_number
-from photonloupe.cli.common import EXIT_OK, add_device_option, print_result
+from photonloupe.cli.common import EXIT_OK, add_device_option, add_scene_options, open_scene, print_result
 from photonloupe.errors import ArgumentError
 from photonloupe.photons import MAX_EMITTED
 
@@ -33,6 +33,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--frames", type=int, metavar="N", help="close the window after so many frames and tell their times"
     )
+    add_scene_options(parser)
     add_device_option(parser)
 
 
@@ -42,12 +43,14 @@ def run(arguments: argparse.Namespace) -> int:
     is_scene = arguments.file is not None and Path(arguments.file).suffix.lower() in {".gltf", ".glb"}
     if arguments.panel is not None and arguments.screenshot is None:
         raise ArgumentError("--panel draws a picture; say where with --screenshot")
+    if not is_scene and (arguments.light or arguments.floor):
+        raise ArgumentError("--light and --floor add to a scene; name its .gltf or .glb")
     if arguments.frames is not None:
         check_count("--frames", arguments.frames, 1, 1_000_000)
     if arguments.photons is not None:
         check_count("--photons", arguments.photons, 1, MAX_EMITTED)
     with pl.Studio(
-        scene=arguments.file if is_scene else None,
+        scene=open_scene(arguments, str(arguments.file)) if is_scene else None,
         offscreen=arguments.screenshot is not None,
         size=size,
         photons=arguments.photons,

@@ -10,8 +10,11 @@ from photonloupe.cli.common import (
     EXIT_OK,
     Stopwatch,
     add_device_option,
+    add_scene_options,
     choose_progress,
+    open_scene,
     print_result,
+    warn_ignored,
 )
 from photonloupe.columns import PATH_NAMES
 from photonloupe.device import open_device
@@ -33,6 +36,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         metavar="A,B",
         help=f"paths to record: 'paths' for all, or any of {', '.join(PATH_NAMES)}; default none",
     )
+    add_scene_options(parser)
     add_device_option(parser)
 
 
@@ -46,7 +50,8 @@ def run(arguments: argparse.Namespace) -> int:
     check_map_path(arguments.output)
     watch = Stopwatch()
     with watch.measure("load"):
-        scene = pl.load_scene(arguments.scene)
+        scene = open_scene(arguments, arguments.scene)
+    warn_ignored(scene)
     with watch.measure("device"):
         device = open_device(arguments.device)
     with watch.measure("trace"):

@@ -104,10 +104,13 @@ class Requests:
         self._native.open_scene((scene if isinstance(scene, Scene) else load_scene(path))._native)
         self._native.forget_work("trace")  # the file may have changed
         trace: dict[str, Any] = {"scene": path, "map": ""}
+        is_other = path != json.loads(self._native.state())["trace"]["scene"]
+        if isinstance(scene, Scene) or is_other:
+            trace["additions"] = list(scene._native.additions) if isinstance(scene, Scene) else []
         if photons is not None:
             trace["photons"] = photons
         change: dict[str, dict[str, Any]] = {"trace": trace}
-        if path != json.loads(self._native.state())["trace"]["scene"]:
+        if is_other:
             change["view"] = {"camera": {"is_set": False}}
         self._change("open scene", change)
         self._watch(path)

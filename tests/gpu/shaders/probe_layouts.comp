@@ -8,6 +8,7 @@
 #pragma binding readonly TriangleNormals normals
 #pragma binding readonly Material materials
 #pragma binding readonly Light lights
+#pragma binding readonly EmittingTriangle emitting
 #pragma binding readonly BvhNode nodes
 #pragma binding readonly SceneHeader headers
 #pragma binding readonly TreeNode tree_nodes

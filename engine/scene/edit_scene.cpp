@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+// Appends lights and triangles to a copy of a scene and builds anew what depends on them.
+#include "scene/edit_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/hash.h"
+#include "core/json_place.h"
+#include "scene/bvh.h"
+#include "scene/emitting_objects.h"
+#include "scene/limits.h"
+#include "scene/load_materials.h"
+#include "scene/triangle_math.h"
+
+namespace photonloupe {
+namespace {
+
+using glm::dvec3;
+
+constexpr NumberRange POWER{0.0, 1e30}, PLACE{-MAX_COORDINATE, MAX_COORDINATE}, ANGLE{0.0, 1.5707963267948966};
+// Of the key light: where it stands, in radii of the bounds' ball from its middle, and the irradiance there.
+const dvec3 KEY_PLACE(0.8, 1.8, 1.2);
+constexpr double KEY_IRRADIANCE = 3.0; // W/m²
+// Of the floor: half its side in radii, and how far below the scene it lies.
+constexpr double FLOOR_REACH = 4.0, FLOOR_GAP = 1e-3;
+constexpr float FLOOR_ALBEDO = 0.5f;
+
+dvec3 read_vector(const JsonPlace& place, std::vector<double> fallback, NumberRange range) {
+    const std::vector<double> values = read_numbers_or(place, std::move(fallback), range);
+    return {values.at(0), values.at(1), values.at(2)};
+}
+
+dvec3 read_direction(const JsonPlace& addition) {
+    const JsonPlace place = find_member(addition, "direction");
+    const auto direction = normalize_robustly(read_vector(place, {0, -1, 0}, PLACE));
+    if (!direction)
+        refuse(place, "it has no direction", "give a vector that is not zero");
+    return *direction;
+}
+
+// Middle and radius of the ball around the bounds.
+std::pair<dvec3, double> find_ball(const Scene& scene) {
+    dvec3 lo, hi;
+    for (int axis = 0; axis < 3; ++axis) {
+        lo[axis] = scene.bounds.lo[std::size_t(axis)];
+        hi[axis] = scene.bounds.hi[std::size_t(axis)];
+    }
+    const double radius = 0.5 * glm::length(hi - lo);
+    return {0.5 * (lo + hi), radius > 0 ? radius : 1.0};
+}
+
+glm::vec3 localize(const Scene& scene, const dvec3& place) {
+    return {place.x - scene.origin[0], place.y - scene.origin[1], place.z - scene.origin[2]};
+}
+
+// Two triangles around a middle; their normal is the cross product of the half sides.
+void add_square(Scene& scene, const std::string& name, const shared::Material& material, const dvec3& middle,
+                const dvec3& half_u, const dvec3& half_v) {
+    const auto object = static_cast<std::uint32_t>(scene.objects.size());
+    const auto index = static_cast<std::uint32_t>(scene.materials.size());
+    scene.materials.push_back(material);
+    scene.material_names.push_back(name);
+    scene.objects.push_back({name, index, 2});
+    const glm::vec4 normal(glm::vec3(glm::normalize(glm::cross(half_u, half_v))), 0.0f);
+    const std::array<dvec3, 4> corners{middle - half_u - half_v, middle + half_u - half_v, middle + half_u + half_v,
+                                       middle - half_u + half_v};
+    for (std::uint32_t i = 0; i < 2; ++i) {
+        scene.triangles.push_back({{localize(scene, corners[0]), std::bit_cast<float>(object)},
+                                   {localize(scene, corners[i + 1]), std::bit_cast<float>(index)},
+                                   {localize(scene, corners[i + 2]), std::bit_cast<float>(i)}});
+        scene.normals.push_back({normal, normal, normal});
+    }
+    report_material(material, "material " + quote_text(name), scene.report);
+}
+
+// Lights of objects that emit come last, and are listed again.
+void rebuild(Scene& scene) {
+    const std::size_t kept =
+        std::find_if(scene.lights.begin(), scene.lights.end(),
+                     [](const shared::Light& light) { return find_kind(light) == shared::LIGHT_AREA; }) -
+        scene.lights.begin();
+    scene.lights.resize(kept);
+    scene.light_names.resize(kept);
+    scene.emitting.clear();
+    scene.nodes = build_bvh(scene.triangles, scene.normals);
+    list_emitting_objects(scene);
+}
+
+void add_area_light(Scene& scene, const JsonPlace& addition, const glm::vec3& radiance, const std::string& name) {
+    const dvec3 direction = read_direction(addition);
+    const std::vector<double> size = read_numbers_or(find_member(addition, "size"), {1, 1}, {1e-30, MAX_COORDINATE});
+    const dvec3 other = std::abs(direction.y) < 0.9 ? dvec3(0, 1, 0) : dvec3(1, 0, 0);
+    const dvec3 u = glm::normalize(glm::cross(other, direction));
+    shared::Material lamp{};
+    lamp.absorption_ior.w = 1.5f;
+    lamp.emission_transmission = glm::vec4(radiance, 0.0f);
+    add_square(scene, name, lamp, read_vector(find_member(addition, "position"), {0, 0, 0}, PLACE),
+               u * (0.5 * size.at(0)), glm::cross(direction, u) * (0.5 * size.at(1)));
+    rebuild(scene);
+}
+
+void insert_light(Scene& scene, const shared::Light& light, const std::string& name) {
+    const auto place = std::find_if(scene.lights.begin(), scene.lights.end(),
+                                    [](const shared::Light& other) { return find_kind(other) == shared::LIGHT_AREA; });
+    scene.light_names.insert(scene.light_names.begin() + (place - scene.lights.begin()), name);
+    scene.lights.insert(place, light);
+}
+
+void add_key_light(Scene& scene) {
+    const auto [middle, radius] = find_ball(scene);
+    const dvec3 place = middle + KEY_PLACE * radius;
+    const double intensity = KEY_IRRADIANCE * radius * radius * glm::dot(KEY_PLACE, KEY_PLACE);
+    insert_light(scene,
+                 {{localize(scene, place), std::bit_cast<float>(shared::LIGHT_POINT)},
+                  glm::vec4(glm::vec3(static_cast<float>(intensity)), 0.0f),
+                  {},
+                  {}},
+                 "key light");
+}
+
+void add_light(Scene& scene, const JsonPlace& addition) {
+    const std::string kind = read_string(require_member(addition, "kind"));
+    if (kind == "auto")
+        return add_key_light(scene);
+    const std::string name = "added " + kind + " light " + std::to_string(scene.additions.size());
+    const double intensity = read_number_or(find_member(addition, "intensity"), 1.0, POWER);
+    const glm::vec3 color(read_vector(find_member(addition, "color"), {1, 1, 1}, POWER) * intensity);
+    if (!(std::max({color.r, color.g, color.b}) <= static_cast<float>(POWER.hi)))
+        refuse(addition, "color times intensity is beyond the range of 32-bit floats", "lower the intensity");
+    if (kind == "area")
+        return add_area_light(scene, addition, color, name);
+    shared::Light light{{}, glm::vec4(color, 0.0f), {}, {}};
+    const glm::vec3 place = localize(scene, read_vector(find_member(addition, "position"), {0, 0, 0}, PLACE));
+    light.position_kind = {place, std::bit_cast<float>(shared::LIGHT_POINT)};
+    if (kind == "spot" || kind == "directional")
+        light.direction = glm::vec4(glm::vec3(read_direction(addition)), 0.0f);
+    if (kind == "directional") {
+        light.position_kind = {0, 0, 0, std::bit_cast<float>(shared::LIGHT_DIRECTIONAL)};
+    } else if (kind == "spot") {
+        const JsonPlace cone = find_member(addition, "cone");
+        const std::vector<double> angles = read_numbers_or(cone, {0.0, 0.25 * 3.14159265358979}, ANGLE);
+        if (!(angles.at(0) <= angles.at(1)) || !(angles.at(1) > 0))
+            refuse(cone, "it must be an inner angle and an outer one that is no smaller", "swap them");
+        light.position_kind.w = std::bit_cast<float>(shared::LIGHT_SPOT);
+        light.cone = {find_cap(angles[0]), find_cap(angles[1]), 0.0f, 0.0f};
+    } else if (kind == "environment") {
+        light.position_kind = {0, 0, 0, std::bit_cast<float>(shared::LIGHT_ENVIRONMENT)};
+    } else if (kind != "point") {
+        refuse(find_member(addition, "kind"), quote_text(kind) + " is no kind of light that is modeled",
+               "use point, spot, directional, area, environment or auto");
+    }
+    insert_light(scene, light, name);
+}
+
+void add_floor(Scene& scene, const JsonPlace& addition) {
+    const auto [middle, radius] = find_ball(scene);
+    const JsonPlace y = find_member(addition, "y");
+    const bool has_height = y.value && !y.value->is_null();
+    const double height = has_height ? read_number(y, PLACE) : scene.bounds.lo[1] - FLOOR_GAP * radius;
+    shared::Material plaster{};
+    plaster.base_color_metallic = glm::vec4(glm::vec3(FLOOR_ALBEDO), 0.0f);
+    plaster.absorption_ior.w = 1.5f;
+    plaster.roughness_thin = {1.0f, 0.0f, 1.0f, 0.0f};
+    add_square(scene, "added floor", plaster, {middle.x, height, middle.z}, {0, 0, FLOOR_REACH * radius},
+               {FLOOR_REACH * radius, 0, 0});
+    rebuild(scene);
+}
+
+} // namespace
+
+Scene add_to_scene(const Scene& scene, const std::string& text) {
+    const std::string name = scene.path.string();
+    const Json parsed = Json::parse(text, nullptr, false);
+    const JsonPlace addition{&parsed, "", &name};
+    Scene larger = scene;
+    larger.additions.push_back(text);
+    larger.hash = hash_bytes(scene.hash + text);
+    const std::string what = read_string(require_member(addition, "add"));
+    if (what == "light")
+        add_light(larger, addition);
+    else if (what == "floor")
+        add_floor(larger, addition);
+    else
+        refuse(find_member(addition, "add"), quote_text(what) + " cannot be added", "add a light or a floor");
+    return larger;
+}
+
+} // namespace photonloupe

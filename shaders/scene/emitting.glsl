@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Points on area lights. Inputs: emitting (3 texels a triangle).
+#pragma binding texel emitting
+
+struct EmittingPoint {
+    vec3 position;
+    vec3 normal; // unit, of the front
+    float error; // metres: bound on the rounding of the position
+};
+
+// Uniform over the triangles first … first + count - 1 for u in [0, 1)².
+EmittingPoint sample_emitting(uint first, uint count, vec2 u) {
+    uint low = 0u;
+    uint high = count - 1u;
+    while (low < high) { // the first whose cumulative share is above u.x
+        uint middle = (low + high) / 2u;
+        if (u.x < emitting_at(3u * (first + middle)).w) high = middle;
+        else low = middle + 1u;
+    }
+    float before = low == 0u ? 0.0 : emitting_at(3u * (first + low - 1u)).w;
+    vec4 v0 = emitting_at(3u * (first + low));
+    vec3 v1 = emitting_at(3u * (first + low) + 1u).xyz;
+    vec3 v2 = emitting_at(3u * (first + low) + 2u).xyz;
+    float along = clamp((u.x - before) / max(v0.w - before, 1e-30), 0.0, 1.0);
+    float root = sqrt(along);
+    vec3 weights = vec3(1.0 - root, root * (1.0 - u.y), root * u.y);
+    EmittingPoint point;
+    point.position = weights.x * v0.xyz + weights.y * v1 + weights.z * v2;
+    vec3 reach = max(abs(v0.xyz), max(abs(v1), abs(v2)));
+    point.error = POSITION_ERROR * max(reach.x, max(reach.y, reach.z));
+    vec3 e1 = v1 - v0.xyz;
+    vec3 e2 = v2 - v0.xyz;
+    float s1 = max(abs(e1.x), max(abs(e1.y), abs(e1.z)));
+    float s2 = max(abs(e2.x), max(abs(e2.y), abs(e2.z)));
+    point.normal = normalize_safely(cross(e1 / s1, e2 / s2));
+    return point;
+}
