@@ -69,7 +69,12 @@ private:
         try {
             return call();
         } catch (const nb::python_error& error) {
-            throw Error(nb::str(error.value()).c_str());
+            if (!error.matches(PyExc_Exception)) { // Ctrl-C: for whoever waits for the work
+                PyErr_SetInterrupt();
+                throw Cancelled("stopped on request");
+            }
+            const std::string text = nb::str(error.value()).c_str();
+            throw Error(text.empty() ? nb::type_name(error.type()).c_str() : text);
         }
     }
 

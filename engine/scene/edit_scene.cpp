@@ -29,6 +29,9 @@ constexpr double KEY_IRRADIANCE = 3.0; // W/m²
 // Of the floor: half its side in radii, and how far below the scene it lies.
 constexpr double FLOOR_REACH = 4.0, FLOOR_GAP = 1e-3;
 constexpr float FLOOR_ALBEDO = 0.5f;
+constexpr std::size_t MOST_ADDITIONS = 256;
+constexpr std::string_view MEMBERS[] = {"add",   "kind", "position", "direction", "intensity",
+                                        "color", "size", "cone",     "y"};
 
 dvec3 read_vector(const JsonPlace& place, std::vector<double> fallback, NumberRange range) {
     const std::vector<double> values = read_numbers_or(place, std::move(fallback), range);
@@ -66,6 +69,14 @@ void add_square(Scene& scene, const std::string& name, const shared::Material& m
     scene.materials.push_back(material);
     scene.material_names.push_back(name);
     scene.objects.push_back({name, index, 2});
+    // Of what is wide, such as a floor, only the height counts: cameras fit the rest.
+    const double reach = glm::length(half_u) + glm::length(half_v);
+    const bool is_wide = reach > find_ball(scene).second;
+    for (std::size_t axis = is_wide ? 1 : 0; axis < (is_wide ? 2 : 3); ++axis) {
+        const double extent = std::abs(half_u[int(axis)]) + std::abs(half_v[int(axis)]);
+        scene.bounds.lo[axis] = std::min(scene.bounds.lo[axis], middle[int(axis)] - extent);
+        scene.bounds.hi[axis] = std::max(scene.bounds.hi[axis], middle[int(axis)] + extent);
+    }
     const glm::vec4 normal(glm::vec3(glm::normalize(glm::cross(half_u, half_v))), 0.0f);
     const std::array<dvec3, 4> corners{middle - half_u - half_v, middle + half_u - half_v, middle + half_u + half_v,
                                        middle - half_u + half_v};
@@ -101,7 +112,12 @@ void add_area_light(Scene& scene, const JsonPlace& addition, const glm::vec3& ra
     lamp.emission_transmission = glm::vec4(radiance, 0.0f);
     add_square(scene, name, lamp, read_vector(find_member(addition, "position"), {0, 0, 0}, PLACE),
                u * (0.5 * size.at(0)), glm::cross(direction, u) * (0.5 * size.at(1)));
+    const shared::Triangle& corner = scene.triangles.back();
+    const dvec3 area = compute_area_vector(corner.v0_object, corner.v1_material, corner.v2_source);
+    const auto sides = static_cast<float>(glm::length(area));
     rebuild(scene);
+    if (!(sides > 0) || !std::isfinite(sides))
+        refuse(find_member(addition, "size"), "its area is none that 32-bit floats hold", "choose another size");
 }
 
 void insert_light(Scene& scene, const shared::Light& light, const std::string& name) {
@@ -177,6 +193,12 @@ Scene add_to_scene(const Scene& scene, const std::string& text) {
     const std::string name = scene.path.string();
     const Json parsed = Json::parse(text, nullptr, false);
     const JsonPlace addition{&parsed, "", &name};
+    if (scene.additions.size() >= MOST_ADDITIONS)
+        refuse(addition, "there are too many additions", "put them into the file");
+    const Json none = Json::object();
+    for (const auto& [member, value] : (parsed.is_object() ? parsed : none).items())
+        if (std::find(std::begin(MEMBERS), std::end(MEMBERS), member) == std::end(MEMBERS))
+            refuse(addition, quote_text(member) + " is nothing that an addition has", "leave it out");
     Scene larger = scene;
     larger.additions.push_back(text);
     larger.hash = hash_bytes(scene.hash + text);

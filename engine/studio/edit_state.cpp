@@ -102,11 +102,13 @@ void add_key_light(Workspace& workspace) {
     workspace.change("add a light", [](StudioState& state) {
         state.trace.additions.emplace_back(R"({"add": "light", "kind": "auto"})");
     });
+    workspace.say("");
 }
 
 void add_floor(Workspace& workspace) {
     workspace.change("add a floor",
                      [](StudioState& state) { state.trace.additions.emplace_back(R"({"add": "floor"})"); });
+    workspace.say("");
 }
 
 void set_mode(Workspace& workspace, ViewMode mode) {

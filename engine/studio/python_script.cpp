@@ -69,25 +69,25 @@ std::string write_script(const std::string& text) {
     return is_plain && !is_one_path ? "r'''" + text + "'''" : quote(text);
 }
 
-// What is added, as the call that adds it.
+// What is added, as the call that adds it; what no call takes is left out.
 std::string write_addition(const std::string& addition) {
     const Text told = Text::parse(addition, nullptr, false);
-    if (!told.is_object())
-        return "";
-    const bool is_light = told.value("add", "") == "light";
-    std::string arguments = is_light ? quote(told.value("kind", "")) : "";
-    for (const auto& [name, value] : told.items())
-        if (name != "add" && name != "kind" && !value.is_null())
-            arguments += (arguments.empty() ? "" : ", ") + name + "=" + value.dump();
+    const auto find = [&](const char* name) { return told.is_object() && told.contains(name) ? told[name] : Text(); };
+    const bool is_light = find("add") == "light";
+    std::string arguments = is_light && find("kind").is_string() ? quote(find("kind").get<std::string>()) : "";
+    for (const char* name : {"position", "direction", "intensity", "color", "size", "cone", "y"})
+        if (const Text value = find(name); value.is_number() || value.is_array())
+            arguments += (arguments.empty() ? "" : ", ") + std::string(name) + "=" + value.dump();
     return (is_light ? "scene.add_light(" : "scene.add_floor(") + arguments + ")\n";
 }
 
 std::string write_trace(const TraceState& trace) {
     std::string text;
-    if (!trace.scene.empty())
+    if (!trace.scene.empty()) {
         text += "scene = pl.load_scene(" + quote(trace.scene) + ")\n";
-    for (const std::string& addition : trace.additions)
-        text += write_addition(addition);
+        for (const std::string& addition : trace.additions)
+            text += write_addition(addition);
+    }
     if (!trace.map.empty())
         return text + "photons = pl.load_photons(" + quote(trace.map) + ")\n";
     TraceState copy = trace;

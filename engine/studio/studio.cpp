@@ -184,7 +184,7 @@ void Studio::lay_out_safely() {
         ImGui::ErrorRecoveryTryToRecoverState(&before);
         ImGui::EndFrame();
         throw;
-    } catch (const Error& error) {
+    } catch (const std::exception& error) {
         ImGui::ErrorRecoveryTryToRecoverState(&before);
         m_workspace.say(error.what(), true);
     }

@@ -37,13 +37,17 @@ double measure_spot(double inner, double outer) {
 void frame_area(const Scene& scene, const shared::Light& light, EmissionFrame& frame) {
     const auto first = std::bit_cast<std::uint32_t>(light.cone.y), count = std::bit_cast<std::uint32_t>(light.cone.z);
     frame.sides = light.cone.w;
+    bool has_axis = false;
     for (std::uint32_t i = first; i < first + count; ++i) {
         const shared::EmittingTriangle& triangle = scene.emitting[i];
-        const dvec3 normal =
-            normalize_robustly(compute_area_vector(triangle.v0_cumulative, triangle.v1, triangle.v2)).value();
-        if (i == first)
-            frame.axis = normal;
-        frame.is_flat &= glm::dot(frame.axis, normal) >= FLAT_COSINE;
+        const std::optional<dvec3> normal =
+            normalize_robustly(compute_area_vector(triangle.v0_cumulative, triangle.v1, triangle.v2));
+        if (!normal) // it has no area, and is never drawn
+            continue;
+        if (!has_axis)
+            frame.axis = *normal;
+        has_axis = true;
+        frame.is_flat &= glm::dot(frame.axis, *normal) >= FLAT_COSINE;
         for (const glm::vec4& corner : {triangle.v0_cumulative, triangle.v1, triangle.v2})
             frame.reach = std::max(frame.reach, glm::distance(dvec3(corner), frame.origin));
     }
@@ -66,10 +70,15 @@ void frame_directional(const Scene& scene, EmissionFrame& frame, bool only_specu
     });
     if (!(lo.x <= hi.x))
         lo = hi = dvec3(0.0); // nothing is there to be lit
-    double start = lo.z;      // nothing must stand before it
+    double start = lo.z;      // nothing must stand before it; what lies aside does not count
     visit_triangles(scene, false, [&](const dvec3& a, const dvec3& b, const dvec3& c) {
-        for (const dvec3& corner : {a, b, c})
-            start = std::min(start, glm::dot(corner, frame.axis));
+        const auto place = [&](const dvec3& corner) {
+            return dvec3(glm::dot(corner, u), glm::dot(corner, v), glm::dot(corner, frame.axis));
+        };
+        const dvec3 low = glm::min(place(a), glm::min(place(b), place(c)));
+        const dvec3 high = glm::max(place(a), glm::max(place(b), place(c)));
+        if (low.x <= hi.x && high.x >= lo.x && low.y <= hi.y && high.y >= lo.y)
+            start = std::min(start, low.z);
     });
     start -= LAUNCH_MARGIN * std::max(hi.z - start, glm::length(hi - lo));
     frame.origin = u * lo.x + v * lo.y + frame.axis * start;

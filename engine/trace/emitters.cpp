@@ -4,11 +4,16 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "trace/projection_map.h"
 
 namespace photonloupe {
 namespace {
+
+// Pieces of triangles and cells looked at for all lights together, about two seconds; lights for which that leaves
+// nothing are not aimed, which costs photons, not minutes.
+constexpr std::int64_t PROJECTION_BUDGET = 200'000'000;
 
 double find_largest(const glm::dvec3& v) {
     return std::max({v.x, v.y, v.z});
@@ -59,12 +64,16 @@ EmitterTable build_emitters(const Scene& scene, Store store) {
     EmitterTable table;
     std::vector<glm::dvec3> powers;
     double total = 0;
+    std::int64_t budget = PROJECTION_BUDGET;
     for (const shared::Light& light : scene.lights) {
         const bool is_aimed = store == Store::caustic;
         const EmissionFrame frame = frame_emission(scene, light, is_aimed);
-        const bool has_map = frame.kind == shared::LIGHT_DIRECTIONAL ||
-                             (is_aimed && frame.is_flat && frame.kind != shared::LIGHT_ENVIRONMENT);
-        const ProjectionMap map = has_map ? project_light(scene, frame, is_aimed) : make_full_projection();
+        bool has_map = frame.kind == shared::LIGHT_DIRECTIONAL ||
+                       (is_aimed && frame.is_flat && frame.kind != shared::LIGHT_ENVIRONMENT);
+        if (!(frame.find_measure(light) > 0)) // edge-on, say: nothing could be drawn from it
+            has_map = false;
+        const ProjectionMap map =
+            has_map && budget > 0 ? project_light(scene, frame, is_aimed, budget) : make_full_projection();
         shared::LightEmission emission = describe_emission(light, frame);
         append_projection(table, map, emission);
         const double measure = frame.find_measure(light) * map.find_share();
@@ -74,6 +83,9 @@ EmitterTable build_emitters(const Scene& scene, Store store) {
             table.solid_angle += measure;
         table.emitters.push_back(emission);
     }
+    if (!std::isfinite(total))
+        throw SceneError(scene.path.string() + ": its " + count_lights(scene) +
+                         " send more power than numbers hold; make them smaller or weaker");
     if (!(total > 0))
         throw SceneError(scene.path.string() + ": of its " + count_lights(scene) + " none sends anything towards " +
                          (store == Store::caustic ? "a specular surface" : "a surface") +

@@ -29,9 +29,9 @@ constexpr double START_SLACK = 1e-2;
 // The square's cells, and where geometry falls on them.
 class Marker {
 public:
-    Marker(const EmissionFrame& frame, std::uint32_t row_count)
-        : m_frame(frame), m_rows(row_count), m_columns(2 * row_count), m_marks(std::size_t{m_rows} * m_columns),
-          m_finest(std::min(2.0, frame.widest()) / row_count) {}
+    Marker(const EmissionFrame& frame, std::uint32_t row_count, std::int64_t& budget)
+        : m_budget(budget), m_frame(frame), m_rows(row_count), m_columns(2 * row_count),
+          m_marks(std::size_t{m_rows} * m_columns), m_finest(std::min(2.0, frame.widest()) / row_count) {}
 
     void mark_triangle(const dvec3& a, const dvec3& b, const dvec3& c) {
         if (m_frame.kind == shared::LIGHT_DIRECTIONAL)
@@ -77,15 +77,25 @@ private:
         const auto first = static_cast<std::int64_t>(std::floor((azimuth - reach) / turn * m_columns));
         const auto last = static_cast<std::int64_t>(std::floor((azimuth + reach) / turn * m_columns));
         const std::int64_t span = std::min<std::int64_t>(last - first, m_columns - 1);
+        if (!spend((span + 1) * (find_row(polar + radius) - find_row(polar - radius) + 1)))
+            return;
         for (std::uint32_t row = find_row(polar - radius); row <= find_row(polar + radius); ++row)
             for (std::int64_t step = 0; step <= span; ++step)
                 m_marks[std::size_t{row} * m_columns +
                         static_cast<std::size_t>((first + step + 2 * std::int64_t{m_columns}) % m_columns)] = 1;
     }
 
+    // False: all is marked, for there is no budget for more.
+    bool spend(std::int64_t cost) {
+        m_budget -= cost;
+        if (m_budget < 0 && !m_is_full)
+            mark_all();
+        return !m_is_full;
+    }
+
     // `a`, `b`, `c` relative to the light; from anywhere on it.
     void mark_directions(const dvec3& a, const dvec3& b, const dvec3& c, int splits) {
-        if (m_is_full)
+        if (!spend(1))
             return;
         const auto split = [&](const dvec3& u, const dvec3& v, const dvec3& w) {
             mark_directions(u, v, w, splits + 1);
@@ -115,6 +125,8 @@ private:
     }
 
     void mark_starts(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, int splits) {
+        if (!spend(1))
+            return;
         const glm::dvec2 size(m_columns, m_rows);
         const glm::dvec2 lo = glm::min(glm::min(a, b), c) * size, hi = glm::max(glm::max(a, b), c) * size;
         if (std::max(hi.x - lo.x, hi.y - lo.y) > 1.0 && splits < SPLIT_LIMIT)
@@ -144,6 +156,7 @@ private:
         use(middle, b, c);
     }
 
+    std::int64_t& m_budget;
     const EmissionFrame& m_frame;
     std::uint32_t m_rows, m_columns;
     std::vector<std::uint8_t> m_marks;
@@ -163,8 +176,9 @@ ProjectionMap Marker::collect() const {
     return map;
 }
 
-ProjectionMap mark_scene(const Scene& scene, const EmissionFrame& frame, bool only_specular, std::uint32_t rows) {
-    Marker marker(frame, rows);
+ProjectionMap mark_scene(const Scene& scene, const EmissionFrame& frame, bool only_specular, std::uint32_t rows,
+                         std::int64_t& budget) {
+    Marker marker(frame, rows, budget);
     visit_triangles(scene, only_specular,
                     [&](const dvec3& a, const dvec3& b, const dvec3& c) { marker.mark_triangle(a, b, c); });
     return marker.collect();
@@ -180,13 +194,13 @@ ProjectionMap make_full_projection() {
     return {1, 1, {0}, {{0, 1}}};
 }
 
-ProjectionMap project_light(const Scene& scene, const EmissionFrame& frame, bool only_specular) {
-    ProjectionMap map = mark_scene(scene, frame, only_specular, COARSEST_ROWS);
+ProjectionMap project_light(const Scene& scene, const EmissionFrame& frame, bool only_specular, std::int64_t& budget) {
+    ProjectionMap map = mark_scene(scene, frame, only_specular, COARSEST_ROWS, budget);
     std::uint32_t rows = COARSEST_ROWS;
     // Four times the cells for each doubling of the rows.
     for (std::size_t cells = map.cells.size(); cells > 0 && cells < ENOUGH_CELLS && rows < FINEST_ROWS; cells *= 4)
         rows *= 2;
-    return rows == COARSEST_ROWS ? map : mark_scene(scene, frame, only_specular, rows);
+    return rows == COARSEST_ROWS ? map : mark_scene(scene, frame, only_specular, rows, budget);
 }
 
 } // namespace photonloupe

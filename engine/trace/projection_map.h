@@ -26,6 +26,7 @@ ProjectionMap make_full_projection();
 // What meets a mirror or dielectric triangle (of directional light, where not `only_specular`: any triangle),
 // conservatively: a cell that contains such geometry is always marked. The grid is refined until enough cells are
 // marked to aim well at small objects.
-ProjectionMap project_light(const Scene& scene, const EmissionFrame& frame, bool only_specular);
+// Takes what it costs, calls and cells, from `budget`; where that does not suffice, all is marked.
+ProjectionMap project_light(const Scene& scene, const EmissionFrame& frame, bool only_specular, std::int64_t& budget);
 
 } // namespace photonloupe

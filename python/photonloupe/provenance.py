@@ -32,6 +32,20 @@ def describe_origin(device: Device | None, scene: Scene | None, settings: Mappin
     return origin
 
 
+def list_additions(provenance: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Return what was added to the scene's file, as `Scene.restore` takes it.
+
+    Raises
+    ------
+    PhotonLoupeError
+        If it is no list of lights and floors.
+    """
+    additions = provenance.get("scene_additions", [])
+    if not isinstance(additions, list):
+        raise PhotonLoupeError("what this map says was added to its scene is no list of lights and floors")
+    return additions
+
+
 def reload_scene(provenance: Mapping[str, Any]) -> Scene:
     """Load the scene that a map was traced in once more.
 
@@ -44,7 +58,7 @@ def reload_scene(provenance: Mapping[str, Any]) -> Scene:
     if not path:
         raise PhotonLoupeError("this map knows of no scene")
     scene = load_scene(path)
-    scene.restore(provenance.get("scene_additions", []))
+    scene.restore(list_additions(provenance))
     if scene.hash != provenance.get("scene_hash"):
         raise PhotonLoupeError(
             f"{path} has changed since this map was made; trace it anew (its photons as they are can still be relaxed "

@@ -69,8 +69,8 @@ vec3 light_directional(Light light, vec3 point, vec3 normal) {
 #endif
 
 #ifdef HAS_AREA_LIGHTS
-vec3 light_area(Light light, vec3 point, vec3 normal, vec2 u) {
-    EmittingPoint from = sample_emitting(floatBitsToUint(light.cone.y), floatBitsToUint(light.cone.z), u);
+vec3 light_area(Light light, vec3 point, vec3 normal, vec3 u) {
+    EmittingPoint from = sample_emitting(floatBitsToUint(light.cone.y), floatBitsToUint(light.cone.z), u.z, u.xy);
     vec3 direction;
     float distance;
     if (!aim_at(from.position - point, direction, distance)) return vec3(0.0);
@@ -92,14 +92,15 @@ vec3 light_around(Light light, vec3 point, vec3 normal, vec2 u) {
 #endif
 
 #if defined(HAS_AREA_LIGHTS) || defined(HAS_ENVIRONMENT)
-// Of this sample for a light, in [0, 1)².
-vec2 draw_place(uint slot, uint light) {
+// Of this sample for a light, in [0, 1)³: a place, and which part of it.
+vec3 draw_place(uint slot, uint light) {
     uint at = slot % settings.sample_count;
     uint pixel = settings.first_pixel + at / settings.samples;
     uvec4 scramble = random_words(settings.seed, pixel, 0xfffffffdu, light);
     uint within = at % settings.samples;
-    return vec2(to_unit_float(scramble_owen(sobol_bits(within, 0u), scramble.x)),
-                to_unit_float(scramble_owen(sobol_bits(within, 1u), scramble.y)));
+    return vec3(to_unit_float(scramble_owen(sobol_bits(within, 0u), scramble.x)),
+                to_unit_float(scramble_owen(sobol_bits(within, 1u), scramble.y)),
+                to_unit_float(scramble_owen(sobol_bits(within, 2u), scramble.z)));
 }
 #endif
 
@@ -113,7 +114,7 @@ vec3 light_hit(uint i, vec3 point, vec3 normal, uint slot) {
     if (kind == LIGHT_AREA) return light_area(light, point, normal, draw_place(slot, i));
 #endif
 #ifdef HAS_ENVIRONMENT
-    if (kind == LIGHT_ENVIRONMENT) return light_around(light, point, normal, draw_place(slot, i));
+    if (kind == LIGHT_ENVIRONMENT) return light_around(light, point, normal, draw_place(slot, i).xy);
 #endif
     return light_point(light, point, normal);
 }

@@ -8,21 +8,19 @@ struct EmittingPoint {
     float error; // metres: bound on the rounding of the position
 };
 
-// Uniform over the triangles first … first + count - 1 for u in [0, 1)².
-EmittingPoint sample_emitting(uint first, uint count, vec2 u) {
+// Uniform over the triangles first … first + count - 1: `choice` says which one, u in [0, 1)² where on it.
+EmittingPoint sample_emitting(uint first, uint count, float choice, vec2 u) {
     uint low = 0u;
     uint high = count - 1u;
     while (low < high) { // the first whose cumulative share is above u.x
         uint middle = (low + high) / 2u;
-        if (u.x < emitting_at(3u * (first + middle)).w) high = middle;
+        if (choice < emitting_at(3u * (first + middle)).w) high = middle;
         else low = middle + 1u;
     }
-    float before = low == 0u ? 0.0 : emitting_at(3u * (first + low - 1u)).w;
     vec4 v0 = emitting_at(3u * (first + low));
     vec3 v1 = emitting_at(3u * (first + low) + 1u).xyz;
     vec3 v2 = emitting_at(3u * (first + low) + 2u).xyz;
-    float along = clamp((u.x - before) / max(v0.w - before, 1e-30), 0.0, 1.0);
-    float root = sqrt(along);
+    float root = sqrt(u.x);
     vec3 weights = vec3(1.0 - root, root * (1.0 - u.y), root * u.y);
     EmittingPoint point;
     point.position = weights.x * v0.xyz + weights.y * v1 + weights.z * v2;

@@ -79,7 +79,8 @@ void emit_spot(inout Emission emission, LightEmission light, Place place) {
 // Cosine-weighted on the sides that shine.
 void emit_area(inout Emission emission, LightEmission light, Place place, uint index) {
     vec2 u = vec2(to_unit_float(sample_emission(index, 3u)), to_unit_float(sample_emission(index, 4u)));
-    EmittingPoint point = sample_emitting(light.first_row.z, light.first_row.w, u);
+    float choice = to_unit_float(random_bits(settings.seed, index, 0xffffffffu, 5u));
+    EmittingPoint point = sample_emitting(light.first_row.z, light.first_row.w, choice, u);
     bool is_back = light.axis_sides.w > 1.0 && place.row > 0.5;
     float sine2 = light.axis_sides.w > 1.0 ? 2.0 * (is_back ? 1.0 - place.row : place.row) : place.row;
     float cosine = sqrt(max(0.0, 1.0 - sine2));

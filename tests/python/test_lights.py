@@ -4,49 +4,33 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 import photonloupe as pl
-from conftest import write_scene
-from gltf import GltfWriter, Mesh, build_box, build_quad, make_diffuse, make_glass, make_mirror
+from gltf import GltfWriter, Mesh, make_glass, make_mirror
+from lit_scenes import (
+    HEIGHT,
+    INNER,
+    LIGHTS,
+    OUTER,
+    Doubles,
+    add_optics,
+    add_spot,
+    build_ball,
+    build_panel,
+    load,
+    make_lamp,
+    render_below,
+)
 from statistics_checks import compute_chi_square_p
-
-Doubles = NDArray[np.float64]
 
 ENERGY_TOLERANCE = 2e-3
 EXACT = 2e-6
 P_LIMIT = 1e-4
 PHOTONS = 1 << 20
-HEIGHT = 1.0
-INNER, OUTER = 0.3, 0.6  # radians
-
-
-def load(folder: Path, change: Callable[[GltfWriter], Any]) -> pl.Scene:
-    return pl.load_scene(write_scene(folder, "lit", change, lamp=False))
-
-
-def add_spot(writer: GltfWriter, inner: float = INNER, outer: float = OUTER) -> None:
-    writer.add_spot_light("spot", (0.1, HEIGHT, -0.2), (0.1, 0.0, -0.2), 10.0, inner, outer)
-
-
-def make_lamp(radiance: float, *, is_two_sided: bool = False) -> dict[str, Any]:
-    return {
-        **make_diffuse("lamp", 0.0),
-        "doubleSided": is_two_sided,
-        "emissiveFactor": [1.0, 0.5, 0.25],
-        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": radiance}},
-    }
-
-
-def build_panel(half: float, y: float, *, faces_up: bool = False) -> Mesh:
-    quad = build_quad(half, y)
-    return quad if faces_up else Mesh(quad.positions, -quad.normals, quad.indices[:, ::-1])
 
 
 def measure_spot(angle: float | Doubles, inner: float = INNER, outer: float = OUTER) -> Doubles:
@@ -128,13 +112,6 @@ def test_panel_sends_its_power(tmp_path: Path, is_two_sided: bool) -> None:
     np.testing.assert_allclose(found, color * truth, rtol=0.01)
 
 
-def render_below(scene: pl.Scene, samples: int = 64) -> Doubles:
-    """Irradiance of the floor's middle, from a picture of it."""
-    camera = pl.Camera(position=(0.3, 0.2, 0.0), target=(0.0, 0.0, 0.0), yfov=0.02)
-    image = pl.render(scene, mode="direct", camera=camera, width=8, height=8, samples=samples)
-    return np.asarray(image, dtype=np.float64).mean(axis=(0, 1)) * np.pi / 0.5
-
-
 def test_pictures_hold_the_direct_light_of_every_kind(tmp_path: Path) -> None:
     def change(writer: GltfWriter) -> None:
         writer.add_mesh("panel", build_panel(0.25, HEIGHT), make_lamp(8.0))
@@ -159,27 +136,6 @@ def test_one_sided_lamps_are_dark_from_behind(tmp_path: Path) -> None:
     camera = pl.Camera(position=(0.0, 3.0, 0.0), target=(0.0, 0.0, 0.0), up=(1.0, 0.0, 0.0), yfov=0.05)
     from_behind = np.asarray(pl.render(scene, mode="direct", camera=camera, width=4, height=4))
     assert not from_behind.any()
-
-
-def add_optics(writer: GltfWriter) -> None:
-    """A mirror and a glass block over part of the floor."""
-    writer.add_mesh("mirror", build_panel(0.4, 0.45, faces_up=True), make_mirror("mirror", (1.0, 1.0, 1.0)))
-    writer.add_mesh("glass", build_box((0.6, 0.1, 0.2), (1.1, 0.5, 0.9)), make_glass("glass", 1.5, 0.4))
-    writer.add_mesh("wall", build_box((-2.1, 0.0, -2.0), (-2.0, 1.2, 2.0)), make_diffuse("wall", 0.5))
-
-
-def add_curved_lamp(writer: GltfWriter) -> None:
-    writer.add_mesh("lamp", build_box((-0.2, 1.2, -0.2), (0.1, 1.4, 0.2)), make_lamp(8.0))
-
-
-LIGHTS: dict[str, Callable[[GltfWriter], Any]] = {
-    "spot": lambda writer: writer.add_spot_light("spot", (0.2, 2.0, 0.1), (0.3, 0.0, 0.2), 10.0, 0.2, 0.9),
-    "directional": lambda writer: writer.add_directional_light("sun", (0.2, -1.0, 0.3), 3.0),
-    "panel": lambda writer: writer.add_mesh("lamp", build_panel(0.3, 1.5), make_lamp(8.0)),
-    "two-sided panel": lambda writer: writer.add_mesh("lamp", build_panel(0.3, 1.5), make_lamp(8.0, is_two_sided=True)),
-    "box": add_curved_lamp,
-    "environment": lambda writer: None,
-}
 
 
 @pytest.mark.parametrize("name", LIGHTS)
@@ -259,74 +215,28 @@ def test_wrong_cones_are_refused(tmp_path: Path, cone: dict[str, float], message
         load(tmp_path, lambda writer: writer._place_light("spot", "spot", 1.0, {}, spot=cone))
 
 
-def test_added_lights_are_those_of_files(tmp_path: Path) -> None:
-    pairs: list[tuple[Callable[[GltfWriter], Any], dict[str, Any]]] = [
-        (
-            lambda writer: writer.add_point_light("lamp", (0.1, 1.0, 0.2), 4.0),
-            {"kind": "point", "position": (0.1, 1.0, 0.2), "intensity": 4.0},
-        ),
-        (
-            lambda writer: writer.add_spot_light("spot", (0.0, 1.0, 0.0), (1.0, 0.0, 0.0), 4.0, 0.1, 0.4),
-            {"kind": "spot", "position": (0, 1, 0), "direction": (1, -1, 0), "intensity": 4.0, "cone": (0.1, 0.4)},
-        ),
-        (
-            lambda writer: writer.add_directional_light("sun", (1.0, -1.0, 0.0), 2.0),
-            {"kind": "directional", "direction": (1, -1, 0), "intensity": 2.0},
-        ),
-        (
-            lambda writer: writer.add_mesh("panel", build_panel(0.25, 1.0), make_lamp(8.0)),
-            {"kind": "area", "position": (0, 1, 0), "size": (0.5, 0.5), "intensity": 8.0, "color": (1, 0.5, 0.25)},
-        ),
-    ]
-    for number, (change, told) in enumerate(pairs):
-        filed = load(tmp_path / f"filed {number}", change)
-        added = load(tmp_path / f"bare {number}", lambda writer: None)
-        before = added.hash
-        added.add_light(**told)
-        assert added.hash != before
-        assert added.additions[0]["kind"] == told["kind"]
-        assert [light["kind"] for light in added.lights] == [told["kind"]]
-        np.testing.assert_allclose(render_below(added, 256), render_below(filed, 256), rtol=0.02)
-        flux = [pl.trace_photons(scene, 10_000, store="all").report["flux"]["emitted"] for scene in (added, filed)]
-        np.testing.assert_allclose(flux[0], flux[1], rtol=1e-5)
+def test_many_lamps_among_many_mirrors_take_seconds(tmp_path: Path) -> None:
+    def change(writer: GltfWriter) -> None:
+        writer.add_mesh("ball", build_ball(0.4, 0.6, 96), make_mirror("mirror", (1.0, 1.0, 1.0)))
+        for x in np.linspace(-1.5, 1.5, 40):
+            panel = build_panel(0.02, 1.5)
+            writer.add_mesh(
+                f"lamp {x}",
+                Mesh(panel.positions + np.array([x, 0.0, 0.0]), panel.normals, panel.indices),
+                make_lamp(8.0),
+            )
+
+    photons = pl.trace_photons(load(tmp_path, change), 20_000)
+    assert len(np.unique(photons.emitter)) == 40
 
 
-def test_added_light_and_floor_come_back_with_the_map(tmp_path: Path) -> None:
-    path = write_scene(tmp_path, "bare", add_optics, lamp=False, floor=False)
-    scene = pl.load_scene(path)
-    with pytest.raises(pl.SceneError, match="no emitter; add one"):
-        pl.trace_photons(scene, 1000)
-    scene.add_floor()
-    scene.add_light("auto")
-    photons = pl.trace_photons(scene, 5000)
-    assert {scene.objects[i]["name"] for i in np.unique(photons.object)} <= {"added floor", "wall"}
-    photons.save(tmp_path / "map.zarr")
-    loaded = pl.load_photons(tmp_path / "map.zarr")
-    np.testing.assert_array_equal(loaded.path_vertices, photons.path_vertices)  # traced again, in the same scene
-    relaxed = loaded.relax(2)
-    assert relaxed.report is not None
-    assert np.ptp(relaxed.positions[relaxed.object == photons.object.max()][:, 1]) < 1e-5  # still on the floor
-
-
-@pytest.mark.parametrize(
-    ("told", "message"),
-    [
-        ({"kind": "lava"}, "kind"),
-        ({"kind": "environment", "color": (1, -1, 1)}, "color"),
-        ({"kind": "point", "intensity": -1.0}, "intensity"),
-        ({"kind": "point", "position": (0, 1)}, "position"),
-        ({"kind": "point", "position": (0, 1, np.nan)}, "position"),
-        ({"kind": "spot", "direction": (0, 0, 0)}, "no direction"),
-        ({"kind": "spot", "cone": (0.4, 0.2)}, "inner angle"),
-        ({"kind": "area", "size": (0, 1)}, "size"),
-    ],
-)
-def test_wrong_additions_are_refused(tmp_path: Path, told: dict[str, Any], message: str) -> None:
-    scene = load(tmp_path, lambda writer: None)
-    before = scene.hash
-    with pytest.raises(pl.PhotonLoupeError, match=message):
-        scene.add_light(**told)
-    assert scene.hash == before
+def test_light_comes_from_before_what_is_near_and_not_what_is_far(tmp_path: Path) -> None:
+    scene = load(tmp_path, add_optics)
+    scene.add_light("directional", direction=(-0.5, -1.0, 0.2), intensity=3.0)
+    near = pl.trace_photons(scene, emitted=1 << 18)
+    scene.add_light("area", position=(1e6, 2e6, 0.0), intensity=0.0)
+    far = pl.trace_photons(scene, emitted=1 << 18)
+    np.testing.assert_allclose(far.total_flux, near.total_flux, rtol=ENERGY_TOLERANCE)
 
 
 def test_start_of_directional_light_tells_its_photons_apart(tmp_path: Path) -> None:
@@ -345,27 +255,6 @@ def test_start_of_directional_light_tells_its_photons_apart(tmp_path: Path) -> N
     far = np.linalg.norm(starts[a] - starts[b], axis=1)
     near = np.linalg.norm(place[a] - place[b], axis=1)
     np.testing.assert_allclose(near * (far.sum() / near.sum()), far, rtol=1e-3, atol=1e-4)
-
-
-def build_ball(radius: float, height: float, rows: int = 256) -> Mesh:
-    """A sphere about (0, `height`, 0) with exact normals."""
-    polar, turn = np.meshgrid(
-        np.linspace(0.0, np.pi, rows + 1), np.linspace(0.0, 2.0 * np.pi, 2 * rows + 1), indexing="ij"
-    )
-    normals = np.stack([np.sin(polar) * np.cos(turn), np.cos(polar), np.sin(polar) * np.sin(turn)], axis=2).reshape(
-        -1, 3
-    )
-    first = (np.arange(rows)[:, None] * (2 * rows + 1) + np.arange(2 * rows)[None, :]).ravel()
-    below = first + 2 * rows + 1
-    faces = np.concatenate(
-        [np.stack([first, first + 1, below], axis=1), np.stack([first + 1, below + 1, below], axis=1)]
-    )
-    positions = radius * normals + [0.0, height, 0.0]
-    areas = np.linalg.norm(
-        np.cross(positions[faces[:, 1]] - positions[faces[:, 0]], positions[faces[:, 2]] - positions[faces[:, 0]]),
-        axis=1,
-    )
-    return Mesh(positions, normals, faces[areas > 1e-12])
 
 
 def test_ball_lens_follows_its_closed_form(tmp_path: Path) -> None:
@@ -397,29 +286,6 @@ def test_ball_lens_follows_its_closed_form(tmp_path: Path) -> None:
     np.testing.assert_allclose(twice.total_flux, truth, rtol=ENERGY_TOLERANCE)
 
 
-def test_bare_scene_is_lit_and_rendered_from_the_command_line(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], caplog: pytest.LogCaptureFixture
-) -> None:
-    from photonloupe.cli import main  # noqa: PLC0415
-
-    path = write_scene(tmp_path, "bare", lamp=False)
-    picture = tmp_path / "bare.png"
-    size = ["--width", "32", "--height", "32", "--samples", "1"]
-    assert main(["render", str(path), "-o", str(picture), *size]) == 2
-    assert "--light auto" in capsys.readouterr().err
-    assert main(["render", str(path), "-o", str(picture), *size, "--light", "auto", "--exposure", "auto"]) == 0
-    assert "nothing specular" in caplog.text
-    pixels = np.asarray(pl.load_image(picture))
-    assert 0.3 < pixels.max() <= 1.0
-    caplog.clear()
-    assert main(["render", str(path), "-o", str(picture), *size, "--light", "point 0,1,0 1e4"]) == 0
-    assert "--exposure auto" in caplog.text
-    for wrong in ("lava", "point 0,1", "point 0,1,x", "spot 0,1,0 0,0,0", "point 0,0,0 1 2 3", ""):
-        assert main(["render", str(path), "-o", str(picture), *size, "--light", wrong]) == 2
-    assert main(["trace", str(path), "-o", str(tmp_path / "m.zarr"), "--light", "auto", "--store", "all"]) == 0
-    assert main(["render", str(path), "-o", str(picture), *size, "--map", str(tmp_path / "m.zarr")]) == 0
-
-
 def test_tracing_says_early_how_many_photons_land(tmp_path: Path) -> None:
     told: list[str] = []
     scene = load(tmp_path, add_spot)
@@ -428,29 +294,3 @@ def test_tracing_says_early_how_many_photons_land(tmp_path: Path) -> None:
     share = float(first.removeprefix("trace photons, ").removesuffix(" % land"))
     assert share == pytest.approx(100.0 * len(photons) / photons.emitted, rel=0.05)
     assert told.index(first) == 1
-
-
-def test_studio_offers_a_light_to_a_scene_without_one(tmp_path: Path) -> None:
-    path = write_scene(tmp_path, "dark", add_optics, lamp=False)
-    with pl.Studio(scene=path, offscreen=True, size=(1000, 700), photons=5000) as studio:
-        studio.frame()
-        assert "no emitter" in studio.message
-        studio.press("Status/Add light")
-        studio.frame()
-        assert len(studio.photons) >= 5000
-        assert studio.scene is not None
-        assert [light["name"] for light in studio.scene.lights] == ["key light"]
-        assert 'scene.add_light("auto")' in studio.python()
-        state = studio.state
-        picture = studio.photons.positions.copy()
-        studio.command("edit.undo")
-        studio.frame()
-        assert "no emitter" in studio.message
-    with pl.Studio(offscreen=True, size=(1000, 700)) as other:
-        other.set_state(state)
-        other.frame()
-        np.testing.assert_array_equal(other.photons.positions, picture)
-        program = other.python().split("camera =")[0]
-    names: dict[str, Any] = {}
-    exec(program, names)
-    np.testing.assert_array_equal(names["photons"].positions, picture)

@@ -20,6 +20,8 @@ namespace {
 
 using glm::dvec3;
 
+std::int64_t budget = 1ll << 40; // all there is to be had
+
 shared::Light make_spot(double inner, double outer) {
     const auto cap = [](double angle) { return static_cast<float>(1 - std::cos(angle)); };
     return {{0.1f, 2.0f, 0.3f, std::bit_cast<float>(shared::LIGHT_SPOT)},
@@ -85,7 +87,7 @@ TEST(EmissionFrame, no_way_from_a_spot_is_left_out) {
                                  glm::vec3(at + along * 1.5) + 0.3f * draw_vector(random)});
         const Scene scene = make_mirrors(triangles);
         const EmissionFrame frame = frame_emission(scene, light, true);
-        const ProjectionMap map = project_light(scene, frame, true);
+        const ProjectionMap map = project_light(scene, frame, true, budget);
         const std::set<std::uint32_t> cells(map.cells.begin(), map.cells.end());
         for (int i = 0; i < 20'000; ++i) {
             const dvec3 direction = glm::normalize(draw_point(triangles[i % 20], random) - at);
@@ -123,7 +125,7 @@ TEST(EmissionFrame, no_way_from_a_panel_is_left_out) {
         const EmissionFrame frame = frame_emission(scene, scene.lights[0], true);
         EXPECT_TRUE(frame.is_flat);
         EXPECT_EQ(frame.sides, is_two_sided ? 2 : 1);
-        const ProjectionMap map = project_light(scene, frame, true);
+        const ProjectionMap map = project_light(scene, frame, true, budget);
         const std::set<std::uint32_t> cells(map.cells.begin(), map.cells.end());
         int shone = 0;
         for (int i = 0; i < 20'000; ++i) {
@@ -151,7 +153,7 @@ TEST(EmissionFrame, no_start_of_directional_light_is_left_out) {
                             glm::vec4(glm::normalize(glm::vec3(0.3f, -1, 0.1f)), 0),
                             glm::vec4(0)};
     const EmissionFrame frame = frame_emission(scene, sun, true);
-    const ProjectionMap map = project_light(scene, frame, true);
+    const ProjectionMap map = project_light(scene, frame, true, budget);
     EXPECT_LT(map.find_share(), 0.5);
     const std::set<std::uint32_t> cells(map.cells.begin(), map.cells.end());
     for (int i = 0; i < 20'000; ++i) {

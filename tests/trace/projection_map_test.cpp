@@ -16,6 +16,7 @@
 namespace photonloupe::test {
 namespace {
 
+std::int64_t budget = 1ll << 40; // all there is to be had
 constexpr double SPHERE = 4 * std::numbers::pi;
 
 Scene make_mirrors(const std::vector<Corners>& triangles) {
@@ -32,7 +33,7 @@ shared::Light make_light(glm::vec3 position) {
 }
 
 ProjectionMap project(const Scene& scene, const shared::Light& light) {
-    return project_light(scene, frame_emission(scene, light, true), true);
+    return project_light(scene, frame_emission(scene, light, true), true, budget);
 }
 
 std::uint32_t find_cell(const ProjectionMap& map, const glm::dvec3& toward) {

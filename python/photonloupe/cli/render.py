@@ -26,6 +26,7 @@ from photonloupe.device import open_device
 from photonloupe.errors import ArgumentError
 from photonloupe.image import MAX_EXPOSURE, check_image_path
 from photonloupe.progress import ProgressLike
+from photonloupe.provenance import list_additions
 from photonloupe.scripting import check_values
 from photonloupe.settings import add_setting_options, list_settings, read_setting_options
 
@@ -92,7 +93,7 @@ def _find_photons(
         return pl.trace_photons(scene, count, seed=getattr(arguments, "seed", None), device=device, progress=progress)
     photons = pl.load_photons(arguments.map, device=device)
     if not scene.additions:
-        scene.restore(photons.provenance.get("scene_additions", []))
+        scene.restore(list_additions(photons.provenance))
     if photons.provenance.get("scene_hash", scene.hash) != scene.hash:
         LOG.warning(f"{arguments.map} was not traced in {arguments.scene} as it is now; its light may not fit")
     return photons

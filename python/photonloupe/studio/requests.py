@@ -92,7 +92,7 @@ class Requests:
         elif suffix == MAP or Path(path).is_dir():
             if not Path(path).exists():
                 raise ArgumentError(f"{path}: there is no such photon map")
-            self._change("open map", {"trace": {"map": str(Path(path).absolute()), "scene": ""}})
+            self._change("open map", {"trace": {"map": str(Path(path).absolute()), "scene": "", "additions": []}})
         else:
             kinds = ", ".join((*SCENES, SCRIPT, MAP, SESSION, *IMAGES))
             raise ArgumentError(f"{path} is none of the files the studio opens: {kinds}")
