@@ -115,7 +115,9 @@ bool is_specular(const shared::Material& material) {
 }
 
 double EmissionFrame::find_share(double angle) const {
-    const double beyond = 2 * std::pow(std::sin(0.5 * angle), 2); // 1 - cos
+    if (kind == shared::LIGHT_POINT)
+        return 0.5 * (1 - std::cos(angle));
+    const double half = std::sin(0.5 * angle), beyond = 2 * half * half; // 1 - cos
     if (kind == shared::LIGHT_SPOT) {
         const double whole = measure_spot(inner, outer), ramp = outer - inner;
         if (beyond <= inner)
@@ -126,7 +128,7 @@ double EmissionFrame::find_share(double angle) const {
         return (inner + ramp / 3 * (1 - left * left * left)) / whole;
     }
     if (kind == shared::LIGHT_AREA) {
-        const double sine2 = std::pow(std::sin(angle), 2);
+        const double sine = std::sin(angle), sine2 = sine * sine;
         const bool is_front = angle <= 0.5 * std::numbers::pi;
         return sides == 1 ? (is_front ? sine2 : 2.0) : is_front ? 0.5 * sine2 : 1 - 0.5 * sine2;
     }

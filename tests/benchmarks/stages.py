@@ -16,7 +16,7 @@ import sys
 import time
 from pathlib import Path
 
-ROUNDS = 5
+ROUNDS = 4
 PHOTONS = 200_000
 
 
