@@ -31,26 +31,26 @@ public:
         : m_load_map(keep(std::move(load_map))), m_compare(keep(std::move(compare))) {}
 
     studio::Host make() const {
-        return {[load = m_load_map](const std::string& path) {
-                    return ask<studio::LoadedMap>([&] {
-                        const auto [photons, scene, remarks] =
-                            nb::cast<std::tuple<std::shared_ptr<Photons>, std::optional<std::shared_ptr<Scene>>,
-                                                std::vector<std::string>>>((*load)(path));
-                        return studio::LoadedMap{photons, scene.value_or(nullptr), remarks};
-                    });
-                },
-                [compare = m_compare](const Image& image, const std::string& reference) {
-                    return ask<studio::Comparison>([&] {
-                        const auto [pixels, error, rmse, relmse, flip, reason] =
-                            nb::cast<std::tuple<Pixels, std::optional<Pixels>, double, double, double, std::string>>(
-                                (*compare)(own_pixels(std::vector<float>(image.rgb), image.height, image.width),
-                                           reference));
-                        studio::Comparison comparison{take_image(pixels), {}, {rmse, relmse, flip}, reason};
-                        if (error)
-                            comparison.error = take_image(*error);
-                        return comparison;
-                    });
-                }};
+        return {
+            [load = m_load_map](const std::string& path) {
+                return ask<studio::LoadedMap>([&] {
+                    auto [origin, photons, scene, remarks] =
+                        nb::cast<std::tuple<nb::object, std::shared_ptr<Photons>, std::optional<std::shared_ptr<Scene>>,
+                                            std::vector<std::string>>>((*load)(path));
+                    return studio::LoadedMap{keep(std::move(origin)), photons, scene.value_or(nullptr), remarks};
+                });
+            },
+            [compare = m_compare](const Image& image, const std::string& reference) {
+                return ask<studio::Comparison>([&] {
+                    const auto [pixels, error, rmse, relmse, flip, reason] =
+                        nb::cast<std::tuple<Pixels, std::optional<Pixels>, double, double, double, std::string>>((
+                            *compare)(own_pixels(std::vector<float>(image.rgb), image.height, image.width), reference));
+                    studio::Comparison comparison{take_image(pixels), {}, {rmse, relmse, flip}, reason};
+                    if (error)
+                        comparison.error = take_image(*error);
+                    return comparison;
+                });
+            }};
     }
 
 private:
@@ -152,8 +152,9 @@ nb::object describe_script(const studio::Made& made) {
 nb::dict describe_made(const Studio& self) {
     const studio::Made made = self.worker->stages().made();
     return make_row("scene"_a = std::const_pointer_cast<Scene>(made.scene), "photons"_a = made.photons,
-                    "trace"_a = describe_trace(made.trace), "script"_a = describe_script(made),
-                    "relaxed"_a = made.relaxed,
+                    "trace"_a = describe_trace(made.trace),
+                    "origin"_a = made.origin ? *std::static_pointer_cast<nb::object>(made.origin) : nb::none(),
+                    "script"_a = describe_script(made), "relaxed"_a = made.relaxed,
                     "relaxation"_a = made.relaxed ? nb::object(describe_relaxation(made.relaxation)) : nb::none());
 }
 
@@ -205,7 +206,8 @@ void bind_work(nb::class_<Studio>& type) {
         .def("stop_job", &Studio::stop_job)
         .def("open_scene", [](Studio& self, std::shared_ptr<Scene> scene) { self.worker->stages().open_scene(scene); })
         .def("made", &describe_made,
-             "scene, photons, trace (settings; None: from a file), script, relaxed, relaxation; None where there is "
+             "scene, photons, trace (settings; None: from a file), origin (what load_map gave), script, relaxed, "
+             "relaxation; None where there is "
              "none.")
         .def("rendered", &describe_rendered,
              "The last rendered view, its settings, and whether its photons are relaxed.")
@@ -296,7 +298,8 @@ void bind_studio(nb::module_& module) {
     module.def("open_studio", &open_studio, "device"_a, "size"_a, "scale"_a, "offscreen"_a, "threaded"_a, "load_map"_a,
                "compare"_a, nb::keep_alive<0, 1>(),
                "The interactive tool, in a window or without, that works in a thread or in its frames. "
-               "load_map(path): the map, its scene or None, remarks. compare(pixels, path): reference, error map or "
+               "load_map(path): what is kept of it, the map, its scene or None, remarks. compare(pixels, path): "
+               "reference, error map or "
                "None, rmse, relmse, flip, and why there is none.");
     module.def(
         "find_cache_folder", [] { return find_cache_folder().string(); },

@@ -115,9 +115,9 @@ void add_area_light(Scene& scene, const JsonPlace& addition, const glm::vec3& ra
     const shared::Triangle& corner = scene.triangles.back();
     const dvec3 area = compute_area_vector(corner.v0_object, corner.v1_material, corner.v2_source);
     const auto sides = static_cast<float>(glm::length(area));
-    rebuild(scene);
     if (!(sides > 0) || !std::isfinite(sides))
         refuse(find_member(addition, "size"), "its area is none that 32-bit floats hold", "choose another size");
+    rebuild(scene);
 }
 
 void insert_light(Scene& scene, const shared::Light& light, const std::string& name) {

@@ -94,37 +94,38 @@ void Stages::trace(const Job& job, const Progress& progress) {
     TraceSettings settings = job.state.trace;
     settings.paths = true;
     const std::shared_ptr<const Scene> scene = find_scene(job.state.trace);
-    take_photons(scene, m_bench.trace_photons(*scene, settings, progress), settings, progress);
+    take_photons(scene, m_bench.trace_photons(*scene, settings, progress), settings, nullptr, progress);
 }
 
 void Stages::load_map(const Job& job, const Progress& progress) {
     const LoadedMap loaded = m_host.load_map(job.state.trace.map);
-    take_photons(loaded.scene, loaded.photons, std::nullopt, progress);
+    take_photons(loaded.scene, loaded.photons, std::nullopt, loaded.origin, progress);
     for (const std::string& remark : loaded.remarks)
         say(remark);
 }
 
 void Stages::take_photons(std::shared_ptr<const Scene> scene, std::shared_ptr<Photons> photons,
-                          std::optional<TraceSettings> trace, const Progress& progress) {
+                          std::optional<TraceSettings> trace, std::shared_ptr<void> origin, const Progress& progress) {
     if (photons->map.count == 0)
         throw Error("there are no photons to look at; trace more, or another store");
-    build_view_trees(m_bench.device(), *photons, progress);
-    make([&](Made& made) {
+    show(photons, false, progress, [&](Made& made) {
         made.scene = scene;
         made.trace = trace;
+        made.origin = origin;
         made.traced = photons;
+        made.script = nullptr;
     });
-    show(photons, false, progress);
 }
 
-void Stages::show(std::shared_ptr<Photons> photons, bool has_same_paths, const Progress& progress) {
+// `tell` says in the same moment where they come from.
+void Stages::show(std::shared_ptr<Photons> photons, bool has_same_paths, const Progress& progress,
+                  const std::function<void(Made&)>& tell) {
     build_view_trees(m_bench.device(), *photons, progress);
     m_relaxation.reset();
     make([&](Made& made) {
         made.photons = photons;
         made.relaxed = nullptr;
-        if (photons == made.traced)
-            made.script = nullptr;
+        tell(made);
     });
     m_deliver([scene = m_made.scene, photons, has_same_paths](Workspace& workspace) {
         workspace.take_photons(scene, photons, has_same_paths);
@@ -138,7 +139,7 @@ void Stages::run_script(const Job& job, const Progress& progress) {
     if (state.ran.empty()) {
         if (m_made.photons != m_made.traced) {
             m_deliver([](Workspace& workspace) { workspace.results.script.reset(); });
-            show(m_made.traced, true, progress);
+            show(m_made.traced, true, progress, [](Made& made) { made.script = nullptr; });
         }
         return;
     }
@@ -150,8 +151,7 @@ void Stages::run_script(const Job& job, const Progress& progress) {
     const auto run = m_bench.run_script(*target, *compiled, choose_values(compiled->program, state), false, progress);
     ScriptResult result = describe_run(*run, compiled->program.source);
     result.milliseconds = watch.milliseconds();
-    show(target, true, progress);
-    make([&](Made& made) {
+    show(target, true, progress, [&](Made& made) {
         made.script = run;
         made.script_name = compiled->program.source.name;
         made.script_hash = hash_bytes(state.ran);

@@ -14,6 +14,7 @@ struct Workspace;
 
 // A map from a file, as its host reads it.
 struct LoadedMap {
+    std::shared_ptr<void> origin; // what the host keeps of it, given back as it is
     std::shared_ptr<Photons> photons;
     std::shared_ptr<const Scene> scene; // null: it is not there, or has changed
     std::vector<std::string> remarks;   // what is missing, and why
@@ -37,6 +38,7 @@ struct Host {
 struct Made {
     std::shared_ptr<const Scene> scene;
     std::optional<TraceSettings> trace; // none: the photons came from a file
+    std::shared_ptr<void> origin;       // then: what the host keeps of it
     std::shared_ptr<Photons> traced;
     std::shared_ptr<Photons> photons;                // with what the script gave them
     std::shared_ptr<const script::ScriptRun> script; // null: none ran over them
@@ -73,9 +75,10 @@ private:
     void trace(const Job& job, const Progress& progress);
     void load_map(const Job& job, const Progress& progress);
     void take_photons(std::shared_ptr<const Scene> scene, std::shared_ptr<Photons> photons,
-                      std::optional<TraceSettings> trace, const Progress& progress);
+                      std::optional<TraceSettings> trace, std::shared_ptr<void> origin, const Progress& progress);
     void run_script(const Job& job, const Progress& progress);
-    void show(std::shared_ptr<Photons> photons, bool has_same_paths, const Progress& progress);
+    void show(std::shared_ptr<Photons> photons, bool has_same_paths, const Progress& progress,
+              const std::function<void(Made&)>& tell);
     void relax(const Job& job, const Progress& progress);
     void show_relaxed(bool is_stopped);
     void measure_isotropy(const Job& job, const Progress& progress);

@@ -401,7 +401,7 @@ class Studio:
 
     def made(self) -> dict:
         """
-        scene, photons, trace (settings; None: from a file), script, relaxed, relaxation; None where there is none.
+        scene, photons, trace (settings; None: from a file), origin (what load_map gave), script, relaxed, relaxation; None where there is none.
         """
 
     def rendered(self) -> tuple[Annotated[NDArray[numpy.float32], dict(shape=(None, None, None))], dict, bool] | None:
@@ -450,7 +450,7 @@ class Studio:
 
 def open_studio(device: Device, size: tuple[int, int], scale: float, offscreen: bool, threaded: bool, load_map: object, compare: object) -> Studio:
     """
-    The interactive tool, in a window or without, that works in a thread or in its frames. load_map(path): the map, its scene or None, remarks. compare(pixels, path): reference, error map or None, rmse, relmse, flip, and why there is none.
+    The interactive tool, in a window or without, that works in a thread or in its frames. load_map(path): what is kept of it, the map, its scene or None, remarks. compare(pixels, path): reference, error map or None, rmse, relmse, flip, and why there is none.
     """
 
 def find_cache_folder() -> str:

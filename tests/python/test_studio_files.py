@@ -94,6 +94,19 @@ def test_dropped_picture_is_the_reference_and_is_compared(tmp_path: Path) -> Non
         assert "Image/Picture" in studio.widgets()
 
 
+def test_refused_map_leaves_the_origin_of_the_one_in_view(tmp_path: Path) -> None:
+    photons = pl.trace_photons(pl.load_scene(find_scene("ring")), 1_000, seed=9)
+    photons.save(tmp_path / "good.zarr")
+    photons.select(np.array([], dtype=np.int64)).save(tmp_path / "empty.zarr")
+    with open_empty(size=(400, 300)) as studio:
+        studio.drop(tmp_path / "good.zarr")
+        for _ in range(2):
+            studio.drop(tmp_path / "empty.zarr")
+            assert "no photons to look at" in studio.message
+        assert studio.photons.settings["seed"] == 9
+        assert len(studio.photons) == len(photons)
+
+
 @pytest.mark.parametrize("name", ["a.txt", "missing.gltf", "missing.photon", "missing.zarr.x", "a", "..", "ü\n.loupe"])
 def test_nonsense_is_refused_with_a_word(small: pl.Studio, tmp_path: Path, name: str) -> None:
     (tmp_path / "a.txt").write_text("nothing")

@@ -20,23 +20,16 @@ from photonloupe.photons import PhotonMap
 
 Pixels = NDArray[np.float32]
 Found = TypeVar("Found")
-LoadedMap = tuple[_engine.PhotonMap, "_engine.Scene | None", list[str]]
+LoadedMap = tuple[PhotonMap, _engine.PhotonMap, "_engine.Scene | None", list[str]]
 
 
-class MapLoader:
-    """Reads the map that takes the place of tracing, and keeps what is known of where it came from."""
-
-    def __init__(self, device: Device) -> None:
-        self._device = device
-        self.loaded: PhotonMap | None = None
-
-    def __call__(self, path: str) -> LoadedMap:
-        """Return the map, the scene it lies in, and what is missing."""
-        self.loaded = photons = load_photons(path, device=self._device)
-        remarks: list[str] = []
-        scene = _try("scene", photons.find_surface, remarks)
-        _try("paths", photons.record_paths, remarks)
-        return photons._native, None if scene is None else scene._native, remarks
+def load_map(path: str, *, device: Device) -> LoadedMap:
+    """Return a map as Python has it and as the engine has it, the scene it lies in, and what is missing."""
+    photons = load_photons(path, device=device)
+    remarks: list[str] = []
+    scene = _try("scene", photons.find_surface, remarks)
+    _try("paths", photons.record_paths, remarks)
+    return photons, photons._native, None if scene is None else scene._native, remarks
 
 
 def _try(what: str, find: Callable[[], Found], remarks: list[str]) -> Found | None:

@@ -13,16 +13,14 @@ from photonloupe.provenance import describe_origin
 from photonloupe.relaxing import describe_relaxation
 from photonloupe.rendering import describe_image
 from photonloupe.scene import Scene
-from photonloupe.studio.hosting import MapLoader
 
 
 class Results:
     """Views of what the engine's stages hold now; the same as long as that stays."""
 
-    def __init__(self, native: _engine.Studio, device: Device, loader: MapLoader) -> None:
+    def __init__(self, native: _engine.Studio, device: Device) -> None:
         self._native = native
         self._device = device
-        self._loader = loader
         self._scene: Scene | None = None
         self._photons: PhotonMap | None = None
         self._relaxed: PhotonMap | None = None
@@ -70,8 +68,7 @@ class Results:
     def _describe(self, native: _engine.PhotonMap, made: dict[str, Any]) -> PhotonMap:
         told, scene = made["trace"], self._wrap_scene(made["scene"])
         if told is None:
-            assert self._loader.loaded is not None
-            photons = self._loader.loaded.replace(native)
+            photons: PhotonMap = made["origin"].replace(native)
         else:
             origin = describe_origin(self._device, scene, told)
             photons = PhotonMap(

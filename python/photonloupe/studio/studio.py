@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import functools
 import os
 import weakref
 from collections.abc import Callable, Sequence
@@ -22,7 +23,7 @@ from photonloupe.scene import Scene
 from photonloupe.scripting import Script
 from photonloupe.studio.autosave import Autosave
 from photonloupe.studio.examples import find_examples
-from photonloupe.studio.hosting import MapLoader, compare_with_file
+from photonloupe.studio.hosting import compare_with_file, load_map
 from photonloupe.studio.pictures import encode_pixels, write_pixels
 from photonloupe.studio.requests import Requests
 from photonloupe.studio.results import Results
@@ -91,18 +92,17 @@ class Studio:
         width, height = check_size(size, SMALLEST_SIDE, LARGEST_SIDE)
         scale = check_number("scale", scale, 0.5, 4.0)
         self._device = open_device(device)
-        loader = MapLoader(self._device)
         self._native = _engine.open_studio(
             self._device._native,
             (width, height),
             scale,
             offscreen,
             background or not offscreen,
-            loader,
+            functools.partial(load_map, device=self._device),
             compare_with_file,
         )
         self._is_open = True
-        self._results = Results(self._native, self._device, loader)
+        self._results = Results(self._native, self._device)
         self._requests = Requests(self._native, self._results, weakref.WeakMethod(self.export_panel))
         self._watchers: list[SelectionWatcher] = []
         self._seen_version = self._native.version()
