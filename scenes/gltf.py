@@ -105,24 +105,24 @@ def make_diffuse(name: str, reflectance: float) -> dict[str, Any]:
     }
 
 
-def make_mirror(name: str, color: Vector) -> dict[str, Any]:
-    """Perfect mirror on both sides, Schlick reflectance with F0 = `color`."""
+def make_mirror(name: str, color: Vector, roughness: float = 0.0) -> dict[str, Any]:
+    """Metal on both sides, Schlick reflectance with F0 = `color`; a perfect mirror without `roughness`."""
     return {
         "name": name,
         "doubleSided": True,
         "pbrMetallicRoughness": {
             "baseColorFactor": [*color, 1.0],
             "metallicFactor": 1.0,
-            "roughnessFactor": 0.0,
+            "roughnessFactor": roughness,
         },
     }
 
 
-def make_glass(name: str, ior: float, thickness: float) -> dict[str, Any]:
-    """Clear smooth dielectric with a volume, so that it refracts and absorbs nothing."""
+def make_glass(name: str, ior: float, thickness: float, roughness: float = 0.0) -> dict[str, Any]:
+    """Clear dielectric that absorbs nothing; with a `thickness` it has a volume and refracts, without it is thin."""
     return {
         "name": name,
-        "pbrMetallicRoughness": {"metallicFactor": 0.0, "roughnessFactor": 0.0},
+        "pbrMetallicRoughness": {"metallicFactor": 0.0, "roughnessFactor": roughness},
         "extensions": {
             "KHR_materials_transmission": {"transmissionFactor": 1.0},
             "KHR_materials_ior": {"ior": ior},

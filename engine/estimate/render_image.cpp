@@ -22,7 +22,11 @@ constexpr std::uint32_t DIELECTRIC_SLOTS = 4;
 constexpr std::uint64_t CHUNK_SLOTS = 1ull << 17;
 
 gpu::KernelSource name_eye_kernel(const Scene& scene) {
-    return {"estimate/trace_eye.comp", 64, list_scene_defines(scene), {}};
+    gpu::KernelSource kernel{"estimate/trace_eye.comp", 64, list_scene_defines(scene), {}};
+    if (scene.report.has_rough) // it shows lights
+        for (std::string& define : list_light_defines(scene))
+            kernel.defines.push_back(std::move(define));
+    return kernel;
 }
 
 gpu::KernelSource name_light_kernel(const Scene& scene) {
@@ -91,6 +95,7 @@ void Renderer::trace_eye(const FilmScratch& scratch) {
                   {{"geometry", buffers.geometry},
                    {"shading_normals", buffers.normals},
                    {"materials", buffers.materials},
+                   {"lights", buffers.lights},
                    {"hit_point", scratch.hit_point},
                    {"hit_normal", scratch.hit_normal},
                    {"hit_weight", scratch.hit_weight},
@@ -236,6 +241,7 @@ Image render_image(gpu::Device& device, const Scene& scene, const SceneBuffers& 
     for (const shared::Light& light : scene.lights)
         if (find_kind(light) == shared::LIGHT_ENVIRONMENT)
             renderer.eye.environment += light.intensity;
+    renderer.eye.environment.w = std::bit_cast<float>(renderer.film_push.light_count);
     const Parts parts = choose_parts(settings.mode, map ? map->store : Store::caustic);
     renderer.film_push.uses_emission = parts.emission;
     renderer.film_push.uses_map = parts.map;

@@ -37,9 +37,12 @@ std::string describe_material(const shared::Material& material) {
         text << name;
         separator = " + ";
     };
-    add(metallic, "mirror");
-    add(clear, material.roughness_thin.y != 0 ? "thin glass" : "glass");
+    const bool is_rough = material.roughness_thin.x > 0, is_thin = material.roughness_thin.y != 0;
+    add(metallic, is_rough ? "rough metal" : "mirror");
+    add(clear, is_thin ? (is_rough ? "thin rough glass" : "thin glass") : is_rough ? "rough glass" : "glass");
     add(diffuse, "Lambert");
+    if (is_rough && metallic + clear > 0)
+        text << ", roughness " << material.roughness_thin.x;
     text << ", color " << format_vector(material.base_color_metallic);
     if (clear > 0 && material.roughness_thin.y == 0)
         text << ", ior " << material.absorption_ior.w << ", absorption " << format_vector(material.absorption_ior)
@@ -123,10 +126,13 @@ const char* name_kind(const shared::Light& light) {
 }
 
 SceneFeatures list_features(const SceneReport& report) {
-    const std::pair<bool, const char*> features[] = {
-        {report.has_diffuse, "Lambert"},        {report.has_mirror, "mirrors"},
-        {report.has_dielectric, "dielectrics"}, {report.has_absorption, "absorption"},
-        {report.has_thin, "thin glass"},        {report.has_emission, "emission seen by cameras"}};
+    const std::pair<bool, const char*> features[] = {{report.has_diffuse, "Lambert"},
+                                                     {report.has_mirror, "mirrors"},
+                                                     {report.has_dielectric, "dielectrics"},
+                                                     {report.has_rough, "roughness"},
+                                                     {report.has_absorption, "absorption"},
+                                                     {report.has_thin, "thin glass"},
+                                                     {report.has_emission, "emission seen by cameras"}};
     SceneFeatures result;
     for (const auto& [present, name] : features)
         (present ? result.required : result.left_out).emplace_back(name);

@@ -95,14 +95,13 @@ void report_material(const shared::Material& material, const std::string& label,
     const bool emits = std::max({emission.x, emission.y, emission.z}) > 0;
 
     report.has_mirror |= metallic > 0;
+    report.has_rough |= roughness > 0 && (metallic > 0 || is_clear);
     report.has_dielectric |= is_clear && !is_thin;
     report.has_thin |= is_clear && is_thin;
     report.has_absorption |= is_clear && !is_thin && absorbs;
     report.has_diffuse |= is_diffuse;
     report.has_emission |= emits;
 
-    if (roughness > 0 && (metallic > 0 || is_clear))
-        report.ignored.push_back(label + ": its roughness is not modeled yet, it is treated as smooth");
     if (is_diffuse)
         report.ignored.push_back(label + ": the specular lobe of its opaque, non-metal part is not modeled (Lambert)");
 }

@@ -185,8 +185,8 @@ void note_counts(const Counts& counts, std::vector<std::string>& notes) {
     note(notes, counts.turned_normals, "triangle has a shading normal on its back side, which was kept",
          "triangles have a shading normal on their back side, which was kept");
     note(notes, counts.without_material,
-         "primitive has no material; glTF's default, white metal, makes it a perfect mirror",
-         "primitives have no material; glTF's default, white metal, makes them perfect mirrors");
+         "primitive has no material; glTF's default, white metal, makes it rough and reflecting",
+         "primitives have no material; glTF's default, white metal, makes them rough and reflecting");
 }
 
 } // namespace

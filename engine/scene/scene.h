@@ -40,6 +40,7 @@ struct SceneReport {
     std::vector<std::string> ignored; // features present in the file that nothing models, one sentence each
     std::vector<std::string> notes; // what was changed or dropped on the way (degenerate triangles, missing normals …)
     bool has_mirror = false;
+    bool has_rough = false; // metal or glass
     bool has_dielectric = false;
     bool has_thin = false;
     bool has_absorption = false;

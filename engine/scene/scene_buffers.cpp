@@ -59,6 +59,8 @@ std::vector<std::string> list_scene_defines(const Scene& scene) {
         defines.emplace_back("HAS_MIRROR");
     if (scene.report.has_dielectric || scene.report.has_thin)
         defines.emplace_back("HAS_DIELECTRIC");
+    if (scene.report.has_rough)
+        defines.emplace_back("HAS_ROUGH");
     if (scene.report.has_absorption)
         defines.emplace_back("HAS_ABSORPTION");
     return defines;

@@ -11,7 +11,7 @@
 #ifdef HAS_AREA_LIGHTS
 #include "scene/emitting.glsl"
 #endif
-#pragma binding readonly Light lights
+#include "estimate/light_beams.glsl"
 #pragma binding texel hit_point
 #pragma binding texel hit_normal
 #pragma binding writeonly vec4 direct_irradiance
@@ -21,52 +21,13 @@ layout(push_constant) uniform Push { FilmSettings settings; };
 // A ray to an area light is stopped short of it by this share of its length.
 const float BEFORE_LIGHT = 0.9999;
 
-// Unit direction and distance to a point; false where they are one.
-bool aim_at(vec3 to_light, out vec3 direction, out float distance) {
-    float largest = max(abs(to_light.x), max(abs(to_light.y), abs(to_light.z)));
-    direction = normalize_safely(to_light);
-    distance = largest * sqrt(dot(to_light / largest, to_light / largest));
-    return largest > 0.0;
+vec3 light_from(Light light, vec3 point, vec3 normal) {
+    Beam beam;
+    if (!find_beam(light, point, beam)) return vec3(0.0);
+    float cosine = dot(beam.direction, normal);
+    if (cosine <= 0.0 || is_blocked(point, beam.direction, beam.distance)) return vec3(0.0);
+    return beam.irradiance * cosine;
 }
-
-bool is_blocked(vec3 point, vec3 direction, float distance) {
-    return intersect_scene(Ray(point, direction), distance, true).t < distance;
-}
-
-#ifdef HAS_SPOT_LIGHTS
-// KHR_lights_punctual: the square of a ramp in the cosine.
-float attenuate_spot(Light light, vec3 direction) {
-    if (floatBitsToUint(light.position_kind.w) != LIGHT_SPOT) return 1.0;
-    vec3 off = direction + light.direction.xyz; // towards the light against where it shines
-    float beyond = 0.5 * dot(off, off);         // 1 - cos, which keeps the digits of narrow cones
-    if (beyond <= light.cone.x) return 1.0;
-    float ramp = clamp((light.cone.y - beyond) / max(light.cone.y - light.cone.x, 1e-30), 0.0, 1.0);
-    return ramp * ramp;
-}
-#endif
-
-vec3 light_point(Light light, vec3 point, vec3 normal) {
-    vec3 direction;
-    float distance;
-    if (!aim_at(light.position_kind.xyz - point, direction, distance)) return vec3(0.0);
-    float cosine = dot(direction, normal);
-    if (cosine <= 0.0) return vec3(0.0);
-    float share = 1.0;
-#ifdef HAS_SPOT_LIGHTS
-    share = attenuate_spot(light, direction);
-    if (share <= 0.0) return vec3(0.0);
-#endif
-    if (is_blocked(point, direction, distance)) return vec3(0.0);
-    return light.intensity.rgb * share / distance / distance * cosine;
-}
-
-#ifdef HAS_DIRECTIONAL_LIGHTS
-vec3 light_directional(Light light, vec3 point, vec3 normal) {
-    float cosine = -dot(light.direction.xyz, normal);
-    if (cosine <= 0.0 || intersect_scene(Ray(point, -light.direction.xyz), INFINITY, true).t < INFINITY) return vec3(0.0);
-    return light.intensity.rgb * cosine;
-}
-#endif
 
 #ifdef HAS_AREA_LIGHTS
 vec3 light_area(Light light, vec3 point, vec3 normal, vec3 u) {
@@ -107,16 +68,13 @@ vec3 draw_place(uint slot, uint light) {
 vec3 light_hit(uint i, vec3 point, vec3 normal, uint slot) {
     Light light = lights[i];
     uint kind = floatBitsToUint(light.position_kind.w);
-#ifdef HAS_DIRECTIONAL_LIGHTS
-    if (kind == LIGHT_DIRECTIONAL) return light_directional(light, point, normal);
-#endif
 #ifdef HAS_AREA_LIGHTS
     if (kind == LIGHT_AREA) return light_area(light, point, normal, draw_place(slot, i));
 #endif
 #ifdef HAS_ENVIRONMENT
     if (kind == LIGHT_ENVIRONMENT) return light_around(light, point, normal, draw_place(slot, i).xy);
 #endif
-    return light_point(light, point, normal);
+    return light_from(light, point, normal);
 }
 
 void main() {

@@ -3,11 +3,15 @@
 // Inputs: scene. Outputs: per slot hit_point (xyz, w 1: used), hit_normal, hit_weight (rgb: radiance per irradiance);
 // per sample eye_emission (rgb: emitted radiance seen).
 // Dielectrics split into both directions while slots last, then one is chosen at random.
-// Defines: HAS_DIELECTRIC, HAS_MIRROR, HAS_ABSORPTION.
+// Rough surfaces send each path on one way, and show point, spot and directional lights themselves (lights).
+// Defines: HAS_DIELECTRIC, HAS_MIRROR, HAS_ROUGH (then also those of lights), HAS_ABSORPTION.
 #include "shared/prelude.glsl"
 #include "shared/random.h"
 #include "shared/render.h"
 #include "scene/scatter.glsl"
+#ifdef HAS_ROUGH
+#include "estimate/light_beams.glsl"
+#endif
 #pragma binding writeonly vec4 hit_point
 #pragma binding writeonly vec4 hit_normal
 #pragma binding writeonly vec4 hit_weight
@@ -30,6 +34,16 @@ uint waiting_count = 0u;
 uint sample_index;
 uint used_slots = 0u;
 vec3 seen_emission = vec3(0.0);
+
+// Which facet of a rough surface the path meets, in [0, 1)².
+vec2 choose_facet(uint bounce) {
+#ifdef HAS_ROUGH
+    uvec4 random = random_words(settings.seed, sample_index, bounce, 40u + used_slots);
+    return vec2(to_unit_float(random.x), to_unit_float(random.y));
+#else
+    return vec2(0.0);
+#endif
+}
 
 float draw(uint bounce, uint dimension) {
     return to_unit_float(random_bits(settings.seed, sample_index, bounce, 16u + dimension + 4u * used_slots));
@@ -65,10 +79,10 @@ void wait_branch(Branch branch) {
 
 // Follows both directions when a slot is left for each, else one by its probability.
 void split_dielectric(inout Branch branch, Surface surface) {
-    Interface face = meet_dielectric(surface, branch.ray.direction);
-    vec3 tint = surface.material.base_color_metallic.rgb;
-    Branch reflected = Branch(leave_surface(surface, reflect_direction(surface, branch.ray.direction)),
-                              branch.weight * face.reflectance, branch.bounce);
+    Interface face = meet_dielectric(surface, branch.ray.direction, choose_facet(branch.bounce));
+    vec3 tint = face.transmitted_share * surface.material.base_color_metallic.rgb;
+    Branch reflected = Branch(leave_surface(surface, face.reflected),
+                              branch.weight * (face.reflectance * face.reflected_share), branch.bounce);
     Branch transmitted = Branch(leave_surface(surface, face.transmitted),
                                 branch.weight * (1.0 - face.reflectance) * tint, branch.bounce);
     bool can_split = used_slots + waiting_count + 2u <= settings.slot_count && face.reflectance > 0.0 && face.reflectance < 1.0;
@@ -76,13 +90,28 @@ void split_dielectric(inout Branch branch, Surface surface) {
         wait_branch(reflected);
         branch = transmitted;
     } else if (draw(branch.bounce, 0u) < face.reflectance) {
-        reflected.weight = branch.weight;
+        reflected.weight = branch.weight * face.reflected_share;
         branch = reflected;
     } else {
         transmitted.weight = branch.weight * tint;
         branch = transmitted;
     }
 }
+
+#ifdef HAS_ROUGH
+// Radiance that lights without extent send off a rough surface to the eye; its others the path itself meets.
+vec3 shine_back(Surface surface, vec3 direction) {
+    vec3 sum = vec3(0.0);
+    for (uint i = 0u; i < floatBitsToUint(settings.environment.w); ++i) {
+        Beam beam;
+        if (!find_beam(lights[i], surface.position, beam)) continue;
+        vec3 share = scatter_rough(surface, direction, beam.direction);
+        Ray ray = leave_surface(surface, beam.direction);
+        if (share != vec3(0.0) && !is_blocked(ray.origin, ray.direction, beam.distance)) sum += share * beam.irradiance;
+    }
+    return sum;
+}
+#endif
 
 // One surface of a branch; false when the branch ends here.
 bool follow_surface(inout Branch branch, Surface surface, float distance) {
@@ -95,13 +124,17 @@ bool follow_surface(inout Branch branch, Surface surface, float distance) {
     float diffuse = weigh_diffuse(surface.material);
     if (diffuse > 0.0) record_hit(surface, normal, branch.weight * diffuse);
     if (diffuse >= 1.0 || branch.bounce >= settings.max_bounces) return false;
+#ifdef HAS_ROUGH
+    if (is_rough(surface.material)) seen_emission += branch.weight * shine_back(surface, branch.ray.direction);
+#endif
     float mirror = weigh_mirror(surface.material) / (1.0 - diffuse);
     branch.weight *= 1.0 - diffuse;
     bool takes_mirror = mirror >= 1.0 || (mirror > 0.0 && draw(branch.bounce, 1u) < mirror);
 #ifdef HAS_MIRROR
     if (takes_mirror) {
-        branch.weight *= reflect_schlick(surface.material, -dot(branch.ray.direction, normal));
-        branch.ray = leave_surface(surface, reflect_direction(surface, branch.ray.direction));
+        Lobe lobe = reflect_metal(surface, branch.ray.direction, choose_facet(branch.bounce));
+        branch.weight *= lobe.share;
+        branch.ray = leave_surface(surface, lobe.direction);
     }
 #endif
 #ifdef HAS_DIELECTRIC

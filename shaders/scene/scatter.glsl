@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a surface does to light: Lambert, perfect mirror with Schlick reflectance, smooth dielectric with exact Fresnel.
-// Sides are decided by the geometric normal, directions by the shading normal (METHODS §0).
+// What a surface does to light: Lambert, mirror with Schlick reflectance, dielectric with exact Fresnel, both smooth or
+// rough. Sides are decided by the geometric normal, directions by the shading normal (METHODS §0).
+// Defines: HAS_ROUGH.
 #include "scene/surface.glsl"
+#ifdef HAS_ROUGH
+#include "scene/microfacet.glsl"
+#endif
 
 float weigh_diffuse(Material m) { return (1.0 - m.base_color_metallic.w) * (1.0 - m.emission_transmission.w); }
 float weigh_mirror(Material m) { return m.base_color_metallic.w; }
@@ -42,35 +46,163 @@ float reflect_fresnel(float cosine, float ratio, out float cosine_beyond) {
     return 0.5 * (parallel * parallel + perpendicular * perpendicular);
 }
 
-struct Interface {
-    float reflectance;
-    vec3 transmitted; // direction beyond; meaningless when reflectance is 1
+bool arrives_in_front(Surface surface, vec3 direction) { return dot(direction, surface.geometric_normal) < 0.0; }
+
+#ifdef HAS_ROUGH
+bool is_rough(Material m) { return m.roughness_thin.x > 0.0; }
+
+// The frame of a rough surface's facets; its z axis is the normal that light arrives on.
+struct FacetFrame {
+    vec3 u, v, n;
+    vec3 arriving; // in the frame, away from the surface
+    float width;
 };
 
-Interface meet_dielectric(Surface surface, vec3 direction) {
-    bool enters = dot(direction, surface.geometric_normal) < 0.0;
+FacetFrame build_facet_frame(Surface surface, vec3 direction) {
+    FacetFrame frame;
+    frame.n = face_arrival(surface, direction);
+    build_basis(frame.n, frame.u, frame.v);
+    frame.arriving = -vec3(dot(direction, frame.u), dot(direction, frame.v), dot(direction, frame.n));
+    frame.arriving.z = max(frame.arriving.z, 1e-7);
+    frame.width = find_ggx_width(surface.material.roughness_thin.x);
+    return frame;
+}
+
+vec3 turn_to_facets(FacetFrame frame, vec3 w) { return vec3(dot(w, frame.u), dot(w, frame.v), dot(w, frame.n)); }
+
+vec3 turn_to_world(FacetFrame frame, vec3 w) { return normalize_safely(w.x * frame.u + w.y * frame.v + w.z * frame.n); }
+
+// Share of what a facet sends to `leaving` that other facets and the surface itself let pass; `side` 1 where it stays, -1 beyond.
+float share_leaving(Surface surface, vec3 direction, FacetFrame frame, vec3 leaving, float side) {
+    bool stays = arrives_in_front(surface, direction) == (dot(turn_to_world(frame, leaving), surface.geometric_normal) > 0.0);
+    if (leaving.z * side <= 0.0 || stays != (side > 0.0)) return 0.0;
+    return share_visible(frame.arriving, leaving, frame.width);
+}
+#endif
+
+// A direction that light takes, and what the surface leaves of it.
+struct Lobe {
+    vec3 direction;
+    vec3 share;
+};
+
+// Off metal; u in [0, 1)² chooses the facet of a rough one.
+Lobe reflect_metal(Surface surface, vec3 direction, vec2 u) {
+#ifdef HAS_ROUGH
+    if (is_rough(surface.material)) {
+        FacetFrame frame = build_facet_frame(surface, direction);
+        vec3 m = sample_visible_facet(frame.arriving, frame.width, u);
+        vec3 leaving = reflect(-frame.arriving, m);
+        return Lobe(turn_to_world(frame, leaving), share_leaving(surface, direction, frame, leaving, 1.0) *
+                                                       reflect_schlick(surface.material, dot(frame.arriving, m)));
+    }
+#endif
+    return Lobe(reflect_direction(surface, direction),
+                reflect_schlick(surface.material, -dot(direction, face_arrival(surface, direction))));
+}
+
+// What a dielectric does to one arriving direction. Shares: of what is reflected or transmitted, what leaves.
+struct Interface {
+    float reflectance;
+    vec3 reflected;
+    float reflected_share;
+    vec3 transmitted; // meaningless when reflectance is 1
+    float transmitted_share;
+};
+
+// Index of refraction here over that beyond.
+float find_index_ratio(Surface surface, vec3 direction) {
     float ior = surface.material.absorption_ior.w;
-    float ratio = enters ? 1.0 / ior : ior;
+    return arrives_in_front(surface, direction) ? 1.0 / ior : ior;
+}
+
+// Both faces of a thin one at once: R' = 2R/(1 + R).
+float reflect_thin(float cosine, float ior) {
+    float beyond;
+    float r = reflect_fresnel(cosine, 1.0 / ior, beyond);
+    return 2.0 * r / (1.0 + r);
+}
+
+vec3 refract_direction(vec3 direction, vec3 n, float cosine, float ratio, float beyond) {
+    return normalize_safely(ratio * direction + (ratio * cosine - beyond) * n);
+}
+
+Interface meet_smooth(Surface surface, vec3 direction) {
+    float ratio = find_index_ratio(surface, direction);
     vec3 n = face_arrival(surface, direction);
     float cosine = min(1.0, -dot(direction, n));
     float beyond;
-    Interface result;
-    if (is_thin(surface.material)) { // both faces at once: R' = 2R/(1 + R), no bending
-        float r = reflect_fresnel(cosine, 1.0 / ior, beyond);
-        result.reflectance = 2.0 * r / (1.0 + r);
-        result.transmitted = direction;
-        return result;
+    Interface face = Interface(0.0, reflect_direction(surface, direction), 1.0, direction, 1.0);
+    if (is_thin(surface.material)) { // no bending
+        face.reflectance = reflect_thin(cosine, surface.material.absorption_ior.w);
+        return face;
     }
-    result.reflectance = reflect_fresnel(cosine, ratio, beyond);
-    result.transmitted = normalize_safely(ratio * direction + (ratio * cosine - beyond) * n);
+    face.reflectance = reflect_fresnel(cosine, ratio, beyond);
+    face.transmitted = refract_direction(direction, n, cosine, ratio, beyond);
+    bool enters = arrives_in_front(surface, direction);
     // A bent shading normal that would keep it on this side: let it pass along the surface's own normal.
-    if (result.reflectance < 1.0 && (dot(result.transmitted, surface.geometric_normal) < 0.0) != enters) {
+    if (face.reflectance < 1.0 && arrives_in_front(surface, face.transmitted) != enters) {
         vec3 g = enters ? surface.geometric_normal : -surface.geometric_normal;
         float geometric_cosine = min(1.0, -dot(direction, g));
-        result.reflectance = reflect_fresnel(geometric_cosine, ratio, beyond);
-        result.transmitted = normalize_safely(ratio * direction + (ratio * geometric_cosine - beyond) * g);
+        face.reflectance = reflect_fresnel(geometric_cosine, ratio, beyond);
+        face.transmitted = refract_direction(direction, g, geometric_cosine, ratio, beyond);
     }
-    return result;
+    return face;
+}
+
+#ifdef HAS_ROUGH
+// One facet decides both directions. Thin: what is transmitted is the reflection's mirror image behind the surface.
+Interface meet_facet(Surface surface, vec3 direction, vec2 u) {
+    FacetFrame frame = build_facet_frame(surface, direction);
+    vec3 m = sample_visible_facet(frame.arriving, frame.width, u);
+    float cosine = clamp(dot(frame.arriving, m), 0.0, 1.0);
+    vec3 reflected = reflect(-frame.arriving, m);
+    vec3 transmitted = vec3(reflected.xy, -reflected.z);
+    Interface face;
+    if (is_thin(surface.material)) {
+        face.reflectance = reflect_thin(cosine, surface.material.absorption_ior.w);
+    } else {
+        float beyond, ratio = find_index_ratio(surface, direction);
+        face.reflectance = reflect_fresnel(cosine, ratio, beyond);
+        transmitted = refract_direction(-frame.arriving, m, cosine, ratio, beyond);
+    }
+    face.reflected = turn_to_world(frame, reflected);
+    face.reflected_share = share_leaving(surface, direction, frame, reflected, 1.0);
+    face.transmitted = turn_to_world(frame, transmitted);
+    face.transmitted_share = share_leaving(surface, direction, frame, transmitted, -1.0);
+    return face;
+}
+
+// Light per steradian that a rough surface sends from `direction` to `leaving`, of what arrives: the density of the
+// sampling above times its shares. Its dielectric's color is left out on reflection, as everywhere.
+vec3 scatter_rough(Surface surface, vec3 direction, vec3 leaving) {
+    FacetFrame frame = build_facet_frame(surface, direction);
+    vec3 w = turn_to_facets(frame, leaving);
+    Material material = surface.material;
+    float side = w.z > 0.0 ? 1.0 : -1.0;
+    float share = share_leaving(surface, direction, frame, w, side);
+    if (share <= 0.0) return vec3(0.0);
+    bool is_mirrored = side > 0.0 || is_thin(material);
+    vec3 image = is_thin(material) ? vec3(w.xy, abs(w.z)) : w;
+    float ratio = find_index_ratio(surface, direction);
+    vec3 m = is_mirrored ? normalize_safely(frame.arriving + image) : find_refracting_facet(frame.arriving, w, ratio);
+    float cosine = dot(frame.arriving, m);
+    if (cosine <= 0.0 || (!is_mirrored && dot(w, m) >= 0.0)) return vec3(0.0);
+    float density = find_visible_density(frame.arriving, m, frame.width) *
+                    (is_mirrored ? measure_reflection(frame.arriving, m) : measure_refraction(frame.arriving, w, m, ratio));
+    float beyond;
+    float reflectance = is_thin(material) ? reflect_thin(cosine, material.absorption_ior.w) : reflect_fresnel(cosine, ratio, beyond);
+    vec3 clear = side > 0.0 ? vec3(reflectance) : (1.0 - reflectance) * material.base_color_metallic.rgb;
+    vec3 metal = side > 0.0 ? reflect_schlick(material, cosine) : vec3(0.0);
+    return share * density * (weigh_dielectric(material) * clear + weigh_mirror(material) * metal);
+}
+#endif
+
+Interface meet_dielectric(Surface surface, vec3 direction, vec2 u) {
+#ifdef HAS_ROUGH
+    if (is_rough(surface.material)) return meet_facet(surface, direction, u);
+#endif
+    return meet_smooth(surface, direction);
 }
 
 // Transmittance of the segment that ended here, if it ran inside this surface's dielectric (Beer-Lambert).

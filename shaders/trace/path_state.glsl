@@ -63,7 +63,7 @@ void write_vertex(inout PathState path, vec3 position, uint interaction, uint ob
     ++path.recorded;
 }
 
-void record_vertex(inout PathState path, Surface surface, vec3 normal, uint interaction, float diffuse, vec3 arriving,
+void record_vertex(inout PathState path, Surface surface, vec3 normal, uint interaction, float scatter, vec3 arriving,
                    bool stores) {
     ++path.vertex_count;
     if (stores) {
@@ -73,8 +73,8 @@ void record_vertex(inout PathState path, Surface surface, vec3 normal, uint inte
 #ifndef RECORD_PATHS
     if (!stores) return;
 #endif
-    // 0 mirror-like … 1 diffuse; mixtures lie between.
-    write_vertex(path, surface.position, interaction, surface.object, normal, diffuse, arriving, stores);
+    // Scatter: 0 mirror-like … 1 diffuse; roughness and mixtures lie between.
+    write_vertex(path, surface.position, interaction, surface.object, normal, scatter, arriving, stores);
 }
 
 PathState start_path(uint index, uint slot) {

@@ -3,7 +3,7 @@
 // Inputs: scene, emitters, cells, cell_rows (projection maps), lane_order (coherent order of a chunk).
 // Outputs: summaries, deposited_flux, lost_flux, and per slot scratch_position, scratch_normal, scratch_power.
 // Defines: STORE_MODE, EMISSION, RECORD_PATHS (keep specular vertices too), HAS_DIELECTRIC, HAS_MIRROR,
-// HAS_ABSORPTION, HAS_SEVERAL_LIGHTS, HAS_SPOT_LIGHTS, HAS_DIRECTIONAL_LIGHTS, HAS_AREA_LIGHTS (then also emitting), HAS_ENVIRONMENT.
+// HAS_ROUGH, HAS_ABSORPTION, HAS_SEVERAL_LIGHTS, HAS_SPOT_LIGHTS, HAS_DIRECTIONAL_LIGHTS, HAS_AREA_LIGHTS (then also emitting), HAS_ENVIRONMENT.
 #include "shared/prelude.glsl"
 #include "shared/random.h"
 #include "shared/trace.h"
@@ -35,20 +35,31 @@ void scatter_diffuse(inout PathState path, Surface surface, vec3 normal, uvec4 r
 #endif
 }
 
-void scatter_mirror(inout PathState path, Surface surface, vec3 normal, uvec4 random) {
-    if (!survive(path, reflect_schlick(surface.material, -dot(path.ray.direction, normal)), random.y)) return;
-    path.ray = leave_surface(surface, reflect_direction(surface, path.ray.direction));
+// Which facet of a rough surface the path meets, in [0, 1)².
+vec2 choose_facet(PathState path) {
+#ifdef HAS_ROUGH
+    uvec4 random = random_words(settings.seed, path.index, path.bounce, 2u);
+    return vec2(to_unit_float(random.x), to_unit_float(random.y));
+#else
+    return vec2(0.0);
+#endif
+}
+
+void scatter_mirror(inout PathState path, Surface surface, uvec4 random) {
+    Lobe lobe = reflect_metal(surface, path.ray.direction, choose_facet(path));
+    if (!survive(path, lobe.share, random.y)) return;
+    path.ray = leave_surface(surface, lobe.direction);
     path.met_specular = true;
 }
 
 uint scatter_dielectric(inout PathState path, Surface surface, uvec4 random) {
-    Interface face = meet_dielectric(surface, path.ray.direction);
+    Interface face = meet_dielectric(surface, path.ray.direction, choose_facet(path));
     path.met_specular = true;
     if (to_unit_float(random.z) < face.reflectance) {
-        path.ray = leave_surface(surface, reflect_direction(surface, path.ray.direction));
+        if (survive(path, vec3(face.reflected_share), random.y)) path.ray = leave_surface(surface, face.reflected);
         return INTERACTION_REFLECTED;
     }
-    if (survive(path, surface.material.base_color_metallic.rgb, random.y))
+    if (survive(path, face.transmitted_share * surface.material.base_color_metallic.rgb, random.y))
         path.ray = leave_surface(surface, face.transmitted);
     return INTERACTION_TRANSMITTED;
 }
@@ -71,13 +82,17 @@ void meet_surface(inout PathState path, Surface surface, float distance) {
         float choice = to_unit_float(random.x);
         if (choice < diffuse) scatter_diffuse(path, surface, normal, random);
 #ifdef HAS_MIRROR
-        else if (choice < diffuse + weigh_mirror(surface.material)) scatter_mirror(path, surface, normal, random);
+        else if (choice < diffuse + weigh_mirror(surface.material)) scatter_mirror(path, surface, random);
 #endif
 #ifdef HAS_DIELECTRIC
         else interaction = scatter_dielectric(path, surface, random);
 #endif
     }
-    record_vertex(path, surface, normal, interaction, diffuse, arriving, stores);
+    float scatter = diffuse;
+#ifdef HAS_ROUGH
+    scatter += (1.0 - diffuse) * min(surface.material.roughness_thin.x, 1.0);
+#endif
+    record_vertex(path, surface, normal, interaction, scatter, arriving, stores);
 }
 
 // One segment of the path: to the next surface, or away.

@@ -18,6 +18,7 @@ const std::vector<std::string> PATHS{"", "RECORD_PATHS"};
 const std::vector<std::string> MIRROR{"", "HAS_MIRROR"};
 const std::vector<std::string> DIELECTRIC{"", "HAS_DIELECTRIC"};
 const std::vector<std::string> ABSORPTION{"", "HAS_ABSORPTION"};
+const std::vector<std::string> MATTER{"", "HAS_ROUGH"};
 const std::vector<std::string> SPOT{"", "HAS_SPOT_LIGHTS"}, DIRECTIONAL{"", "HAS_DIRECTIONAL_LIGHTS"},
     AREA{"", "HAS_AREA_LIGHTS"}, ENVIRONMENT{"", "HAS_ENVIRONMENT"};
 const std::vector<std::string> OTHER_LIGHTS{"", "HAS_SPOT_LIGHTS\n#define HAS_DIRECTIONAL_LIGHTS\n#define "
@@ -54,7 +55,7 @@ const std::vector<std::string> DESCRIPTORS{"DESCRIPTOR 1", "DESCRIPTOR 2", "DESC
 const std::map<std::string, Factors> FACTORS{
     {"estimate/estimate_irradiance.comp", {KERNELS, {SURFACE[2]}, {"", "ONE_NORMAL"}, {TIES[1]}, SINGLY}},
     {"estimate/light_direct.comp", {SPOT, DIRECTIONAL, AREA, ENVIRONMENT}},
-    {"estimate/trace_eye.comp", {MIRROR, DIELECTRIC, ABSORPTION}},
+    {"estimate/trace_eye.comp", {MIRROR, DIELECTRIC, ABSORPTION, MATTER, OTHER_LIGHTS}},
     {"inspect/count_crossings.comp", {{"", "RAGGED"}}},
     {"photons/choose_brackets.comp", {RANGES}},
     {"photons/count_lefts.comp", {RANGES}},
@@ -80,7 +81,7 @@ const std::map<std::string, Factors> FACTORS{
     {"relax/measure_tensor.comp", {SURFACE, LAYERS, PERIODIC, SINGLY}},
     {"relax/move_photons.comp", {{"", "HAS_SURFACE"}}},
     {"relax/repel_photons.comp", {SURFACE, LAYERS, PERIODIC, SINGLY, {"", "CARRIED"}, {"", "CONSTRAINED"}}},
-    {"trace/shoot_photons.comp", {STORES, EMISSIONS, PATHS, MIRROR, DIELECTRIC, ABSORPTION, OTHER_LIGHTS}},
+    {"trace/shoot_photons.comp", {STORES, EMISSIONS, PATHS, MIRROR, DIELECTRIC, ABSORPTION, MATTER, OTHER_LIGHTS}},
     {"trace/write_photons.comp", {PATHS}},
 };
 
