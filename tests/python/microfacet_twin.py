@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Rough surfaces from the textbook in double precision: GGX with height-correlated Smith shadowing (Walter et al. 2007,
-Heitz 2014). The normal is +y; `arriving` points away from the surface, on its side.
+"""Rough surfaces from the textbook in double precision: GGX with height-correlated Smith shadowing.
+
+Walter et al. 2007, Heitz 2014. The normal is +y; `arriving` points away from the surface, on its side.
 """
 
 from __future__ import annotations
