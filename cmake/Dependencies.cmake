@@ -9,6 +9,8 @@ find_package(TinyGLTF REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(OpenEXR REQUIRED)
 find_package(PNG REQUIRED)
+find_library(TURBOJPEG_LIBRARY turbojpeg REQUIRED)
+find_library(WEBP_LIBRARY webp REQUIRED)
 find_path(VOLK_INCLUDE_DIR volk.h REQUIRED)
 find_path(XXHASH_INCLUDE_DIR xxhash.h REQUIRED)
 
@@ -17,4 +19,5 @@ target_include_directories(photonloupe_dependencies SYSTEM INTERFACE ${VOLK_INCL
 target_link_libraries(photonloupe_dependencies INTERFACE
   ${CMAKE_DL_LIBS} Threads::Threads
   glslang::glslang glslang::SPIRV glslang::glslang-default-resource-limits
-  glm::glm TinyGLTF::TinyGLTF nlohmann_json::nlohmann_json OpenEXR::OpenEXR PNG::PNG)
+  glm::glm TinyGLTF::TinyGLTF nlohmann_json::nlohmann_json OpenEXR::OpenEXR PNG::PNG
+  ${TURBOJPEG_LIBRARY} ${WEBP_LIBRARY})

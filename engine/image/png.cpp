@@ -91,16 +91,19 @@ bool write_rows(png_structp png, png_infop info, const Image& image, const std::
 }
 
 // Only trivial locals, as above. Leaves the stream before the first row.
-bool read_header(png_structp png, png_infop info) {
+bool read_header(png_structp png, png_infop info, bool keeps_alpha, std::uint32_t largest_side) {
     if (setjmp(png_jmpbuf(png)))
         return false;
-    png_set_user_limits(png, MAX_IMAGE_SIDE, MAX_IMAGE_SIDE);
+    png_set_user_limits(png, largest_side, largest_side);
     png_set_chunk_malloc_max(png, MAX_CHUNK_BYTES);
     png_read_info(png, info);
     png_set_expand(png);
     png_set_scale_16(png);
     png_set_gray_to_rgb(png);
-    png_set_strip_alpha(png);
+    if (keeps_alpha)
+        png_set_add_alpha(png, 0xff, PNG_FILLER_AFTER);
+    else
+        png_set_strip_alpha(png);
     png_set_interlace_handling(png);
     png_read_update_info(png, info);
     return true;
@@ -146,24 +149,29 @@ struct Reader {
     ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
 };
 
+void read_all_rows(Reader& reader, const Transfer& transfer, unsigned char* pixels, std::size_t height,
+                   std::size_t row_bytes) {
+    if (png_get_rowbytes(reader.png, reader.info) != row_bytes)
+        throw Error("its pixels can't be converted to 8 bits a channel");
+    std::vector<png_bytep> rows;
+    for (std::size_t row = 0; row < height; ++row)
+        rows.push_back(pixels + row * row_bytes);
+    if (!read_rows(reader.png, reader.info, rows.data()))
+        throw Error(transfer.error);
+}
+
 PngImage decode_png(const std::vector<unsigned char>& bytes) {
     Transfer transfer;
     transfer.source = &bytes;
     Reader reader(transfer);
-    if (!read_header(reader.png, reader.info))
+    if (!read_header(reader.png, reader.info, false, MAX_IMAGE_SIDE))
         throw Error(transfer.error);
     PngImage image;
     image.width = png_get_image_width(reader.png, reader.info);
     image.height = png_get_image_height(reader.png, reader.info);
     check_image_size(image.width, image.height, "its header");
-    if (png_get_rowbytes(reader.png, reader.info) != 3ull * image.width)
-        throw Error("its pixels can't be converted to 8-bit RGB");
     image.rgb.resize(3ull * image.width * image.height);
-    std::vector<png_bytep> rows;
-    for (std::size_t row = 0; row < image.height; ++row)
-        rows.push_back(image.rgb.data() + row * image.width * 3);
-    if (!read_rows(reader.png, reader.info, rows.data()))
-        throw Error(transfer.error);
+    read_all_rows(reader, transfer, image.rgb.data(), image.height, 3ull * image.width);
     png_textp texts = nullptr;
     int text_count = 0;
     png_get_text(reader.png, reader.info, &texts, &text_count);
@@ -173,6 +181,21 @@ PngImage decode_png(const std::vector<unsigned char>& bytes) {
 }
 
 } // namespace
+
+RgbaImage decode_png_texels(const std::vector<unsigned char>& bytes) {
+    Transfer transfer;
+    transfer.source = &bytes;
+    Reader reader(transfer);
+    if (!read_header(reader.png, reader.info, true, MAX_TEXTURE_SIDE))
+        throw Error("it is no readable PNG: " + transfer.error);
+    RgbaImage image;
+    image.width = png_get_image_width(reader.png, reader.info);
+    image.height = png_get_image_height(reader.png, reader.info);
+    image.texels.resize(std::size_t{image.width} * image.height);
+    read_all_rows(reader, transfer, reinterpret_cast<unsigned char*>(image.texels.data()), image.height,
+                  4ull * image.width);
+    return image;
+}
 
 std::uint8_t encode_srgb(float linear, double exposure) {
     const double value = linear * std::exp2(exposure);

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "image/decode_image.h"
 #include "image/image.h"
 
 namespace photonloupe {
@@ -24,5 +25,8 @@ void write_png(const std::filesystem::path& path, const Image& image, double exp
 
 // Reads any PNG as 8-bit RGB (alpha dropped, gray expanded). Throws Error.
 PngImage read_png(const std::filesystem::path& path);
+
+// Any PNG as 8-bit texels with alpha. Throws Error.
+RgbaImage decode_png_texels(const std::vector<unsigned char>& bytes);
 
 } // namespace photonloupe

@@ -106,6 +106,14 @@ std::optional<std::vector<unsigned char>> decode_data_uri(std::string_view uri, 
            "use data:application/octet-stream;base64,");
 }
 
+std::vector<unsigned char> decode_image_uri(std::string_view uri, const JsonPlace& place) {
+    constexpr std::string_view MARK = ";base64,";
+    const std::size_t mark = uri.find(MARK);
+    if (mark == std::string_view::npos)
+        refuse(place, "the image's data URI is not base64", "use data:image/png;base64,");
+    return decode_base64(uri.substr(mark + MARK.size()), place);
+}
+
 std::filesystem::path resolve_uri(std::string_view uri, const std::filesystem::path& folder, const JsonPlace& place) {
     const std::string relative = decode_percent(uri, place);
     check_path_text(relative, uri, place);

@@ -14,6 +14,9 @@ namespace photonloupe {
 // Bytes of a base64 data URI; nothing if the URI is not `data:` at all. Refuses other media types and broken base64.
 std::optional<std::vector<unsigned char>> decode_data_uri(std::string_view uri, const JsonPlace& place);
 
+// The same of an image, whatever media type it claims: its bytes tell. `uri` begins with `data:`.
+std::vector<unsigned char> decode_image_uri(std::string_view uri, const JsonPlace& place);
+
 // The file a relative URI names, with symbolic links resolved, below `folder`. Decodes percent escapes exactly once.
 // Refuses absolute paths, schemes, backslashes, NUL and everything that leaves the folder; the file may be missing.
 std::filesystem::path resolve_uri(std::string_view uri, const std::filesystem::path& folder, const JsonPlace& place);

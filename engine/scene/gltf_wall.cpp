@@ -41,26 +41,14 @@ void check_required_extensions(const JsonPlace& root) {
     }
 }
 
-// Images are never opened; what they name is held to the same rules all the same.
-void check_images(const JsonPlace& root, const std::filesystem::path& folder) {
-    const JsonPlace images = find_member(root, "images");
-    const std::size_t count = count_elements(images, MAX_IMAGES);
-    for (std::size_t i = 0; i < count; ++i) {
-        const JsonPlace place = find_member(get_element(images, i), "uri");
-        if (!place.value)
-            continue;
-        const std::string uri = read_string(place);
-        if (!uri.starts_with("data:") && !folder.empty())
-            resolve_uri(uri, folder, place);
-    }
-}
-
-std::string hash_content(std::string_view json, const BufferBytes& buffers) {
+std::string hash_content(std::string_view json, const BufferBytes& buffers, const std::vector<ImageFile>& images) {
     const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), &XXH3_freeState);
     XXH3_128bits_reset(state.get());
     XXH3_128bits_update(state.get(), json.data(), json.size());
     for (const auto& buffer : buffers)
         XXH3_128bits_update(state.get(), buffer.data(), buffer.size());
+    for (const ImageFile& image : images)
+        XXH3_128bits_update(state.get(), image.bytes.data(), image.bytes.size());
     XXH128_canonical_t canonical;
     XXH128_canonicalFromHash(&canonical, XXH3_128bits_digest(state.get()));
     constexpr std::string_view DIGITS = "0123456789abcdef";
@@ -82,7 +70,6 @@ ApprovedGltf approve_gltf(std::span<const unsigned char> bytes, const std::files
     const JsonPlace root{&document, "", &name};
     check_version(root);
     check_required_extensions(root);
-    check_images(root, folder);
 
     ApprovedGltf result;
     Json approved{{"asset", {{"version", "2.0"}}}};
@@ -91,13 +78,15 @@ ApprovedGltf approve_gltf(std::span<const unsigned char> bytes, const std::files
     const std::vector<AccessorSpan> accessors = check_accessors(root, result.buffers);
     write_accessors(accessors, result.buffers, approved);
     check_materials(root, approved);
+    result.textures = check_textures(root, result.ignored);
+    result.images = read_images(root, folder, result.buffers, result.textures);
     NodeTargets targets;
     targets.mesh_triangles = check_meshes(root, accessors, result.buffers, approved, result.ignored);
     targets.camera_count = check_cameras(root, approved);
     targets.light_count = check_lights(root, approved);
     check_nodes(root, targets, approved, result.ignored);
     result.json = approved.dump();
-    result.hash = hash_content(container.json, result.buffers);
+    result.hash = hash_content(container.json, result.buffers, result.images);
     return result;
 }
 

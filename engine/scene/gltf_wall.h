@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scene/gltf_accessors.h"
+#include "scene/gltf_textures.h"
 
 namespace photonloupe {
 
@@ -15,7 +16,9 @@ namespace photonloupe {
 struct ApprovedGltf {
     std::string json; // names its buffers by name_buffer(), has no images, extras or unknown extensions
     BufferBytes buffers;
-    std::string hash; // XXH3-128 of the file's JSON and all its buffers, hex
+    std::vector<MaterialTextures> textures; // of the materials
+    std::vector<ImageFile> images;
+    std::string hash; // XXH3-128 of the file's JSON, its buffers and the images that materials use, hex
     std::vector<std::string> ignored;
 };
 

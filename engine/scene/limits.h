@@ -17,8 +17,12 @@ constexpr std::uint64_t MAX_BUFFER_BYTES = (1ull << 31) - 1;
 constexpr std::uint64_t MAX_FILE_BYTES = MAX_JSON_BYTES + MAX_BUFFER_BYTES;
 // Nodes, meshes, accessors, materials …: each entry costs a few hundred bytes, a million primitives are no scene.
 constexpr std::size_t MAX_ENTRIES = 1u << 18;
-// Images are never opened; a file that lists more than this is not a scene for us.
+// Each image is a file to open; a scene that lists more than this is not one for us.
 constexpr std::size_t MAX_IMAGES = 4096;
+// Of one image's file, as it is stored.
+constexpr std::uint64_t MAX_IMAGE_BYTES = 256ull << 20;
+// Of all textures together, decoded, 4 bytes each: larger ones are halved until they fit.
+constexpr std::uint64_t MAX_TEXELS = 1ull << 27;
 // Transforms are composed along this many parents; exporters stay below 100.
 constexpr std::size_t MAX_NODE_DEPTH = 256;
 // Triangles are 48 bytes, and graphics drivers allow 2 GiB in one allocation: 2^25 · 48 bytes are 1.5 GiB.

@@ -48,7 +48,3 @@ bool find_beam(Light light, vec3 point, out Beam beam) {
     beam.irradiance *= share / beam.distance / beam.distance;
     return share > 0.0;
 }
-
-bool is_blocked(vec3 point, vec3 direction, float distance) {
-    return intersect_scene(Ray(point, direction), distance, true).t < distance;
-}

@@ -2,12 +2,11 @@
 // Irradiance that lights send straight to each eye hit; every surface, glass too, blocks it (METHODS §0). Area lights by
 // one point of theirs for each sample of a pixel, spread over their area by the Sobol sequence.
 // Inputs: scene, lights, emitting, hit_point, hit_normal. Output: direct_irradiance.
-// Defines: HAS_SPOT_LIGHTS, HAS_DIRECTIONAL_LIGHTS, HAS_AREA_LIGHTS, HAS_ENVIRONMENT.
+// Defines: HAS_SPOT_LIGHTS, HAS_DIRECTIONAL_LIGHTS, HAS_AREA_LIGHTS, HAS_ENVIRONMENT; HAS_ALPHA, HAS_TEXTURES, HAS_VERTEX_COLORS.
 #include "shared/prelude.glsl"
 #include "shared/random.h"
 #include "shared/render.h"
-#include "shared/math.glsl"
-#include "scene/intersect.glsl"
+#include "scene/coverage.glsl"
 #ifdef HAS_AREA_LIGHTS
 #include "scene/emitting.glsl"
 #endif
@@ -25,8 +24,8 @@ vec3 light_from(Light light, vec3 point, vec3 normal) {
     Beam beam;
     if (!find_beam(light, point, beam)) return vec3(0.0);
     float cosine = dot(beam.direction, normal);
-    if (cosine <= 0.0 || is_blocked(point, beam.direction, beam.distance)) return vec3(0.0);
-    return beam.irradiance * cosine;
+    if (cosine <= 0.0) return vec3(0.0);
+    return beam.irradiance * (cosine * pass_scene(Ray(point, beam.direction), beam.distance));
 }
 
 #ifdef HAS_AREA_LIGHTS
@@ -38,8 +37,9 @@ vec3 light_area(Light light, vec3 point, vec3 normal, vec3 u) {
     float cosine = dot(direction, normal);
     float leaving = -dot(direction, from.normal);
     if (light.cone.w > 1.0) leaving = abs(leaving);
-    if (cosine <= 0.0 || leaving <= 0.0 || is_blocked(point, direction, distance * BEFORE_LIGHT)) return vec3(0.0);
-    return light.intensity.rgb * (light.cone.x * leaving / distance / distance) * cosine;
+    if (cosine <= 0.0 || leaving <= 0.0) return vec3(0.0);
+    float share = cosine * pass_scene(Ray(point, direction), distance * BEFORE_LIGHT);
+    return light.intensity.rgb * (light.cone.x * leaving / distance / distance) * share;
 }
 
 #endif
@@ -48,7 +48,7 @@ vec3 light_area(Light light, vec3 point, vec3 normal, vec3 u) {
 // By one direction, cosine-weighted.
 vec3 light_around(Light light, vec3 point, vec3 normal, vec2 u) {
     vec3 direction = sample_cosine(normal, u.x, u.y);
-    return intersect_scene(Ray(point, direction), INFINITY, true).t < INFINITY ? vec3(0.0) : PI * light.intensity.rgb;
+    return PI * light.intensity.rgb * pass_scene(Ray(point, direction), INFINITY);
 }
 #endif
 

@@ -4,7 +4,8 @@
 // per sample eye_emission (rgb: emitted radiance seen).
 // Dielectrics split into both directions while slots last, then one is chosen at random.
 // Rough surfaces send each path on one way, and show point, spot and directional lights themselves (lights).
-// Defines: HAS_DIELECTRIC, HAS_MIRROR, HAS_ROUGH (then also those of lights), HAS_ABSORPTION.
+// Defines: HAS_DIELECTRIC, HAS_MIRROR, HAS_ROUGH (then also those of lights), HAS_ABSORPTION, HAS_TEXTURES,
+// HAS_VERTEX_COLORS, HAS_ALPHA.
 #include "shared/prelude.glsl"
 #include "shared/random.h"
 #include "shared/render.h"
@@ -42,6 +43,15 @@ vec2 choose_facet(uint bounce) {
     return vec2(to_unit_float(random.x), to_unit_float(random.y));
 #else
     return vec2(0.0);
+#endif
+}
+
+// Of surfaces that are there in part.
+uint choose_coverage(uint bounce) {
+#ifdef HAS_ALPHA
+    return random_bits(settings.seed, sample_index, bounce, 48u + used_slots);
+#else
+    return 0u;
 #endif
 }
 
@@ -107,7 +117,7 @@ vec3 shine_back(Surface surface, vec3 direction) {
         if (!find_beam(lights[i], surface.position, beam)) continue;
         vec3 share = scatter_rough(surface, direction, beam.direction);
         Ray ray = leave_surface(surface, beam.direction);
-        if (share != vec3(0.0) && !is_blocked(ray.origin, ray.direction, beam.distance)) sum += share * beam.irradiance;
+        if (share != vec3(0.0)) sum += share * beam.irradiance * pass_scene(ray, beam.distance);
     }
     return sum;
 }
@@ -154,7 +164,7 @@ void main() {
     Branch branch = start_branch();
     bool alive = true;
     while (alive) {
-        Hit hit = intersect_scene(branch.ray, INFINITY, false);
+        Hit hit = meet_scene(branch.ray, choose_coverage(branch.bounce));
         if (hit.t == INFINITY) seen_emission += branch.weight * settings.environment.rgb;
         alive = hit.t < INFINITY && follow_surface(branch, load_surface(hit), hit.t);
         if (!alive && waiting_count > 0u) {

@@ -2,6 +2,7 @@
 // The first surface that each pixel's center sees, or the first behind glass. Input: scene. Outputs: surface_points (xyz, w depth along the view's
 // axis, INFINITY: nothing), surface_normals (xyz shading normal towards the eye, w object).
 #include "shared/prelude.glsl"
+#include "shared/random.h"
 #include "shared/inspect.h"
 #include "scene/scatter.glsl"
 #pragma binding writeonly vec4 surface_points
@@ -19,7 +20,7 @@ Hit look_on(Ray ray, Hit hit) {
     for (uint i = 0u; i < LARGEST_PASSED && hit.t < INFINITY; ++i) {
         Surface surface = load_surface(hit);
         if (weigh_dielectric(surface.material) < SEEN_THROUGH) return hit;
-        hit = intersect_scene(leave_surface(surface, ray.direction), INFINITY, false);
+        hit = meet_scene(leave_surface(surface, ray.direction), i);
     }
     return hit;
 }
@@ -32,7 +33,7 @@ void main() {
     vec3 forward = settings.camera.forward.xyz;
     vec3 direction = normalize_safely(forward + x * settings.camera.right.xyz + y * settings.camera.up.xyz);
     Ray ray = Ray(settings.camera.position.xyz, direction);
-    Hit hit = intersect_scene(ray, INFINITY, false);
+    Hit hit = meet_scene(ray, pixel);
     if (settings.sees_through != 0u) hit = look_on(ray, hit);
     surface_points[pixel] = vec4(0.0, 0.0, 0.0, INFINITY);
     surface_normals[pixel] = vec4(0.0, 0.0, 0.0, uintBitsToFloat(NO_CELL));

@@ -2,7 +2,7 @@
 // What a surface does to light: Lambert, mirror with Schlick reflectance, dielectric with exact Fresnel, both smooth or
 // rough. Sides are decided by the geometric normal, directions by the shading normal (METHODS §0).
 // Defines: HAS_ROUGH.
-#include "scene/surface.glsl"
+#include "scene/coverage.glsl"
 #ifdef HAS_ROUGH
 #include "scene/microfacet.glsl"
 #endif

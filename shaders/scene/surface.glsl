@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The surface at a hit: position with its error bound, normals, material; and rays that leave it safely.
-// Inputs: shading_normals (3 texels a triangle), materials (4 texels each).
+// Inputs: shading_normals (3 texels a triangle), materials (5 texels each), with textures and vertex colors what paints them.
+// Defines: HAS_TEXTURES, HAS_VERTEX_COLORS, HAS_ALPHA.
 #include "shared/math.glsl"
 #include "scene/intersect.glsl"
+#include "scene/paint.glsl"
 #pragma binding texel shading_normals
 #pragma binding texel materials
 
@@ -16,8 +18,12 @@ struct Surface {
 };
 
 Material load_material(uint index) {
-    return Material(materials_at(4u * index), materials_at(4u * index + 1u), materials_at(4u * index + 2u),
-                    materials_at(4u * index + 3u));
+    vec4 alpha = vec4(1.0, ALPHA_OPAQUE, 0.0, 0.0);
+#ifdef HAS_ALPHA
+    alpha = materials_at(5u * index + 4u);
+#endif
+    return Material(materials_at(5u * index), materials_at(5u * index + 1u), materials_at(5u * index + 2u),
+                    materials_at(5u * index + 3u), alpha);
 }
 
 Surface load_surface(Hit hit) {
@@ -41,7 +47,20 @@ Surface load_surface(Hit hit) {
     surface.shading_normal = normalize_safely(n);
     if (surface.shading_normal == vec3(0.0)) surface.shading_normal = surface.geometric_normal;
     surface.object = floatBitsToUint(v0.w);
-    surface.material = load_material(floatBitsToUint(v1.w));
+    uint material = floatBitsToUint(v1.w);
+    surface.material = load_material(material);
+#ifdef HAS_VERTEX_COLORS
+    vec4 color = find_vertex_color(hit.triangle, weights);
+    surface.material.base_color_metallic.rgb *= color.rgb;
+    surface.material.alpha.x *= color.a;
+#endif
+#ifdef HAS_TEXTURES
+    MaterialPaint paint = MaterialPaint(paints_at(2u * material), paints_at(2u * material + 1u));
+    paint_material(surface.material, paint, hit.triangle, weights);
+    if (paint.colors.z > 0.0)
+        surface.shading_normal =
+            bend_normal(surface.shading_normal, paint.colors.z, paint.others.y, hit.triangle, weights, e1 / s1, e2 / s2);
+#endif
     return surface;
 }
 

@@ -29,6 +29,48 @@ struct Material {
     vec4 absorption_ior;        // rgb absorption coefficient of the interior in 1/m (Beer-Lambert), w index of refraction
     vec4 emission_transmission; // rgb emitted radiance W/(m² sr), w transmission
     vec4 roughness_thin;        // x roughness, y 1 = thin (no volume), z 1 = two-sided (emission), w unused
+    vec4 alpha;                 // x alpha, y ALPHA_*, z least alpha that is there (ALPHA_MASK), w unused
+};
+
+const float ALPHA_OPAQUE = 0.0f;
+const float ALPHA_MASK = 1.0f;  // there or not
+const float ALPHA_BLEND = 2.0f; // there with this probability
+
+// An image on a surface: where its texels lie in the atlas, 4 bytes each, and how coordinates lead to them.
+struct Texture {
+    uvec4 place; // x first texel, y width, z height, w TEXTURE_* bits
+    vec4 to_u;   // u of the image = x u + y v + z; w unused
+    vec4 to_v;   // v of the image = x u + y v + z; w unused
+};
+
+const uint TEXTURE_NEAREST = 1u;
+const uint TEXTURE_SECOND_COORDINATES = 2u; // TEXCOORD_1
+const uint TEXTURE_SRGB = 4u;               // red, green and blue go through the atlas's table
+const uint TEXTURE_CLAMP_U = 8u;            // else repeated
+const uint TEXTURE_MIRROR_U = 16u;
+const uint TEXTURE_CLAMP_V = 32u;
+const uint TEXTURE_MIRROR_V = 64u;
+
+// The atlas begins with the linear values of sRGB's 256 codes, as bits of floats.
+const uint ATLAS_TABLE_SIZE = 256u;
+
+// What paints a material: indices of textures + 1, 0 where there is none, exact in floats.
+struct MaterialPaint {
+    vec4 colors; // x base colour, y metallic-roughness, z normal, w emission
+    vec4 others; // x transmission, y scale of the normal texture, zw unused
+};
+
+// At the corners of a triangle.
+struct CornerCoordinates {
+    vec4 c0; // xy TEXCOORD_0, zw TEXCOORD_1
+    vec4 c1;
+    vec4 c2;
+};
+
+struct CornerColors {
+    vec4 c0; // rgb linear, w alpha
+    vec4 c1;
+    vec4 c2;
 };
 
 const uint LIGHT_POINT = 0u;

@@ -3,7 +3,7 @@
 // Inputs: scene, emitters, cells, cell_rows (projection maps), lane_order (coherent order of a chunk).
 // Outputs: summaries, deposited_flux, lost_flux, and per slot scratch_position, scratch_normal, scratch_power.
 // Defines: STORE_MODE, EMISSION, RECORD_PATHS (keep specular vertices too), HAS_DIELECTRIC, HAS_MIRROR,
-// HAS_ROUGH, HAS_ABSORPTION, HAS_SEVERAL_LIGHTS, HAS_SPOT_LIGHTS, HAS_DIRECTIONAL_LIGHTS, HAS_AREA_LIGHTS (then also emitting), HAS_ENVIRONMENT.
+// HAS_ROUGH, HAS_TEXTURES, HAS_VERTEX_COLORS, HAS_ALPHA, HAS_ABSORPTION, HAS_SEVERAL_LIGHTS, HAS_SPOT_LIGHTS, HAS_DIRECTIONAL_LIGHTS, HAS_AREA_LIGHTS (then also emitting), HAS_ENVIRONMENT.
 #include "shared/prelude.glsl"
 #include "shared/random.h"
 #include "shared/trace.h"
@@ -42,6 +42,15 @@ vec2 choose_facet(PathState path) {
     return vec2(to_unit_float(random.x), to_unit_float(random.y));
 #else
     return vec2(0.0);
+#endif
+}
+
+// Of surfaces that are there in part.
+uint choose_coverage(PathState path) {
+#ifdef HAS_ALPHA
+    return random_bits(settings.seed, path.index, path.bounce, 3u);
+#else
+    return 0u;
 #endif
 }
 
@@ -97,7 +106,7 @@ void meet_surface(inout PathState path, Surface surface, float distance) {
 
 // One segment of the path: to the next surface, or away.
 void follow_segment(inout PathState path) {
-    Hit hit = intersect_scene(path.ray, INFINITY, false);
+    Hit hit = meet_scene(path.ray, choose_coverage(path));
     if (hit.t == INFINITY) end_path(path, OUTCOME_ESCAPED);
     else meet_surface(path, load_surface(hit), hit.t);
     ++path.bounce;

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// PNG, JPEG and WebP files of textures, told apart by their first bytes.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace photonloupe {
+
+// 8-bit red, green, blue, alpha, red in the lowest byte; row 0 at the top. Encoded as in the file.
+struct RgbaImage {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::vector<std::uint32_t> texels;
+};
+
+// Larger images are refused before memory is taken for them.
+constexpr std::uint32_t MAX_TEXTURE_SIDE = 16384;
+
+// Throws Error with the reason, without naming the file.
+RgbaImage decode_image(std::span<const unsigned char> bytes);
+
+} // namespace photonloupe
