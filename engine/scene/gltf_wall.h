@@ -13,9 +13,10 @@ namespace photonloupe {
 
 // A scene file that was taken apart, checked and written anew from known members only.
 struct ApprovedGltf {
-    std::string json; // names its buffers by name_buffer(), has no images, extras or unknown extensions
+    std::string json; // has no buffers, images, extras or unknown extensions
     BufferBytes buffers;
-    std::string hash; // XXH3-128 of the file's JSON and all its buffers, hex
+    std::vector<AccessorColumn> columns; // by accessor, into the buffers
+    std::string hash;                    // XXH3-128 of the file's JSON and all its buffers, hex
     std::vector<std::string> ignored;
 };
 

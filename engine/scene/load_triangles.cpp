@@ -38,8 +38,8 @@ glm::dvec3 transform_point(const glm::dmat4& world, const glm::dvec3& point) {
     return glm::dvec3(world * glm::dvec4(point, 1.0));
 }
 
-std::vector<PlacedPrimitive> place_primitives(const tinygltf::Model& model, const std::vector<PlacedNode>& nodes,
-                                              Scene& scene, Counts& counts) {
+std::vector<PlacedPrimitive> place_primitives(const tinygltf::Model& model, const std::vector<AccessorColumn>& columns,
+                                              const std::vector<PlacedNode>& nodes, Scene& scene, Counts& counts) {
     std::vector<PlacedPrimitive> placed;
     for (const PlacedNode& node : nodes) {
         const int mesh_index = model.nodes[node.node].mesh;
@@ -54,7 +54,7 @@ std::vector<PlacedPrimitive> place_primitives(const tinygltf::Model& model, cons
                 object.name.append("[").append(std::to_string(i)).append("]");
             object.material =
                 std::uint32_t(primitive.material < 0 ? model.materials.size() : std::size_t(primitive.material));
-            placed.push_back({PrimitiveReader(model, primitive), &node, std::uint32_t(scene.objects.size())});
+            placed.push_back({PrimitiveReader(primitive, columns), &node, std::uint32_t(scene.objects.size())});
             scene.objects.push_back(std::move(object));
             counts.without_material += primitive.material < 0;
             counts.flat_primitives += !placed.back().reader.has_normals();
@@ -180,8 +180,9 @@ void note_counts(const Counts& counts, std::vector<std::string>& notes) {
     note(notes, counts.zero_area, "triangle of zero area was dropped", "triangles of zero area were dropped");
     note(notes, counts.flat_primitives, "primitive has no normals and is shaded flat",
          "primitives have no normals and are shaded flat");
-    note(notes, counts.replaced_normals, "shading normal of zero length was replaced by the geometric normal",
-         "shading normals of zero length were replaced by the geometric normal");
+    note(notes, counts.replaced_normals,
+         "shading normal of zero length or not finite was replaced by the geometric normal",
+         "shading normals of zero length or not finite were replaced by the geometric normal");
     note(notes, counts.turned_normals, "triangle has a shading normal on its back side, which was kept",
          "triangles have a shading normal on their back side, which was kept");
     note(notes, counts.without_material,
@@ -191,9 +192,10 @@ void note_counts(const Counts& counts, std::vector<std::string>& notes) {
 
 } // namespace
 
-void load_triangles(const tinygltf::Model& model, const std::vector<PlacedNode>& nodes, Scene& scene) {
+void load_triangles(const tinygltf::Model& model, const std::vector<AccessorColumn>& columns,
+                    const std::vector<PlacedNode>& nodes, Scene& scene) {
     Counts counts;
-    const std::vector<PlacedPrimitive> primitives = place_primitives(model, nodes, scene, counts);
+    const std::vector<PlacedPrimitive> primitives = place_primitives(model, columns, nodes, scene, counts);
     scene.bounds = find_bounds(primitives, scene);
     scene.origin = choose_origin(scene.bounds);
     std::size_t triangle_count = 0;
