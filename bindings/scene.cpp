@@ -86,7 +86,7 @@ nb::list list_objects(const Scene& scene) {
 }
 
 nb::dict describe_report(const Scene& scene) {
-    const SceneFeatures features = list_features(scene.report);
+    const SceneFeatures features = list_features(scene);
     nb::dict row;
     row["ignored"] = scene.report.ignored;
     row["notes"] = scene.report.notes;

@@ -73,7 +73,7 @@ Photons Workbench::trace_anew(const Scene& scene, const TraceSettings& settings,
     // named first.
     m_device.compile_ahead(list_render_kernels(scene, settings.store, {}));
     expect_tree(m_device, settings.count);
-    m_device.compile_ahead({name_plot_kernel()});
+    m_device.compile_ahead({name_plot_kernel(scene)});
     TracedPhotons traced = photonloupe::trace_photons(m_device, scene, *find_buffers(scene), settings, progress);
     Photons photons;
     photons.map = std::move(traced.map);

@@ -19,11 +19,11 @@ double find_mean_flux(const PhotonMap& photons) {
 
 } // namespace
 
-gpu::KernelSource name_plot_kernel() {
-    return {"estimate/plot_photons.comp", 64, {}, {}};
+gpu::KernelSource name_plot_kernel(const Scene& scene) {
+    return {"estimate/plot_photons.comp", 64, list_passing_defines(scene), {}};
 }
 
-Image plot_photons(gpu::Device& device, const SceneBuffers& buffers, const PhotonMap& photons,
+Image plot_photons(gpu::Device& device, const Scene& scene, const SceneBuffers& buffers, const PhotonMap& photons,
                    const shared::CameraFrame& camera, std::uint32_t width, std::uint32_t height,
                    const Progress& progress) {
     const std::uint64_t values = std::uint64_t{width} * height * 3;
@@ -31,11 +31,10 @@ Image plot_photons(gpu::Device& device, const SceneBuffers& buffers, const Photo
     gpu::fill(device, "plot photons", plot, 0);
     const double mean = find_mean_flux(photons);
     shared::PlotSettings push{camera, 0, 0, width, height, mean > 0 ? static_cast<float>(1 / mean) : 0.0f};
-    gpu::dispatch_in_chunks(device, "plot photons", name_plot_kernel(),
-                            {{"geometry", buffers.geometry},
-                             {"position_emitter", photons.position_emitter},
-                             {"power_object", photons.power_object},
-                             {"plot", plot}},
+    gpu::dispatch_in_chunks(device, "plot photons", name_plot_kernel(scene),
+                            buffers.bind({{"position_emitter", photons.position_emitter},
+                                          {"power_object", photons.power_object},
+                                          {"plot", plot}}),
                             push, photons.count, 4096, progress);
     Image image{width, height, {}, {}};
     for (std::uint32_t value : plot.read<std::uint32_t>(values))

@@ -7,10 +7,10 @@
 
 namespace photonloupe {
 
-gpu::KernelSource name_plot_kernel();
+gpu::KernelSource name_plot_kernel(const Scene& scene);
 
 // Each visible photon adds its flux, in units of the mean photon's largest channel, to its pixel.
-Image plot_photons(gpu::Device& device, const SceneBuffers& buffers, const PhotonMap& photons,
+Image plot_photons(gpu::Device& device, const Scene& scene, const SceneBuffers& buffers, const PhotonMap& photons,
                    const shared::CameraFrame& camera, std::uint32_t width, std::uint32_t height,
                    const Progress& progress);
 

@@ -30,7 +30,10 @@ gpu::KernelSource name_eye_kernel(const Scene& scene) {
 }
 
 gpu::KernelSource name_light_kernel(const Scene& scene) {
-    return {"estimate/light_direct.comp", 64, list_light_defines(scene), {}};
+    gpu::KernelSource kernel{"estimate/light_direct.comp", 64, list_light_defines(scene), {}};
+    for (std::string& define : list_passing_defines(scene))
+        kernel.defines.push_back(std::move(define));
+    return kernel;
 }
 
 gpu::KernelSource name_color_kernel() {
@@ -92,25 +95,18 @@ struct Renderer {
 
 void Renderer::trace_eye(const FilmScratch& scratch) {
     gpu::dispatch(device, "trace eye paths", name_eye_kernel(scene),
-                  {{"geometry", buffers.geometry},
-                   {"shading_normals", buffers.normals},
-                   {"materials", buffers.materials},
-                   {"lights", buffers.lights},
-                   {"hit_point", scratch.hit_point},
-                   {"hit_normal", scratch.hit_normal},
-                   {"hit_weight", scratch.hit_weight},
-                   {"eye_emission", scratch.eye_emission}},
+                  buffers.bind({{"hit_point", scratch.hit_point},
+                                {"hit_normal", scratch.hit_normal},
+                                {"hit_weight", scratch.hit_weight},
+                                {"eye_emission", scratch.eye_emission}}),
                   eye, eye.sample_count);
 }
 
 void Renderer::light_direct(const FilmScratch& scratch) {
     gpu::dispatch(device, "light directly", name_light_kernel(scene),
-                  {{"geometry", buffers.geometry},
-                   {"lights", buffers.lights},
-                   {"emitting", buffers.emitting},
-                   {"hit_point", scratch.hit_point},
-                   {"hit_normal", scratch.hit_normal},
-                   {"direct_irradiance", scratch.direct_irradiance}},
+                  buffers.bind({{"hit_point", scratch.hit_point},
+                                {"hit_normal", scratch.hit_normal},
+                                {"direct_irradiance", scratch.direct_irradiance}}),
                   film_push, std::uint64_t{film_push.sample_count} * film_push.slot_count);
 }
 
@@ -205,7 +201,7 @@ bool expects_one_normal(const Scene& scene) {
 
 std::vector<gpu::KernelSource> list_render_kernels(const Scene& scene, Store store, const RenderSettings& settings) {
     if (settings.mode == RenderMode::photons)
-        return {name_plot_kernel()};
+        return {name_plot_kernel(scene)};
     if (settings.mode == RenderMode::voronoi)
         return {};
     const Parts parts = choose_parts(settings.mode, store);
@@ -227,7 +223,7 @@ Image render_image(gpu::Device& device, const Scene& scene, const SceneBuffers& 
     const shared::CameraFrame camera =
         frame_camera(scene.origin, find_camera(scene, looks), settings.width, settings.height);
     if (settings.mode == RenderMode::photons)
-        return plot_photons(device, buffers, map->photons, camera, settings.width, settings.height, progress);
+        return plot_photons(device, scene, buffers, map->photons, camera, settings.width, settings.height, progress);
     Renderer renderer{device, scene, buffers, map, settings};
     const bool has_glass = scene.report.has_dielectric || scene.report.has_thin;
     renderer.eye.camera = camera;

@@ -34,9 +34,9 @@ public:
     Commands& operator=(const Commands&) = delete;
 
     template <class Push>
-    void dispatch(const KernelSource& kernel, std::initializer_list<Binding> bindings, const Push& push,
+    void dispatch(const KernelSource& kernel, const std::vector<Binding>& bindings, const Push& push,
                   std::uint64_t invocations) {
-        record_dispatch(kernel, {bindings.begin(), bindings.size()}, &push, sizeof(Push), invocations);
+        record_dispatch(kernel, bindings, &push, sizeof(Push), invocations);
     }
     // The same where neither is known before the run: push constants as bytes.
     void dispatch(const KernelSource& kernel, std::span<const Binding> bindings, std::span<const std::byte> push,
@@ -73,7 +73,7 @@ void copy(Device& device, const std::string& stage, const Buffer& source, const 
           std::uint64_t size_bytes);
 template <class Push>
 void dispatch(Device& device, const std::string& stage, const KernelSource& kernel,
-              std::initializer_list<Binding> bindings, const Push& push, std::uint64_t invocations) {
+              const std::vector<Binding>& bindings, const Push& push, std::uint64_t invocations) {
     Commands commands(device, stage);
     commands.dispatch(kernel, bindings, push, invocations);
     commands.run();
@@ -90,7 +90,7 @@ void run_in_chunks(Device& device, const std::string& stage, std::uint64_t total
 // Runs a kernel that way whose push constants say `first` and `count`.
 template <class Push>
 void dispatch_in_chunks(Device& device, const std::string& stage, const KernelSource& kernel,
-                        std::initializer_list<Binding> bindings, Push push, std::uint64_t total, std::uint64_t granule,
+                        const std::vector<Binding>& bindings, Push push, std::uint64_t total, std::uint64_t granule,
                         const Progress& progress) {
     run_in_chunks(device, stage, total, granule, progress,
                   [&](Commands& commands, std::uint64_t first, std::uint64_t count) {

@@ -223,6 +223,9 @@ private:
 
 template <class Item>
 void reorder(std::vector<Item>& items, const std::vector<Reference>& references) {
+    assert(items.empty() || items.size() == references.size());
+    if (items.empty())
+        return;
     std::vector<Item> ordered;
     ordered.reserve(items.size());
     for (const Reference& reference : references)
@@ -232,17 +235,17 @@ void reorder(std::vector<Item>& items, const std::vector<Reference>& references)
 
 } // namespace
 
-std::vector<shared::BvhNode> build_bvh(std::vector<shared::Triangle>& triangles,
-                                       std::vector<shared::TriangleNormals>& normals) {
-    assert(normals.empty() || normals.size() == triangles.size());
-    if (triangles.empty())
-        return {};
-    BvhBuilder builder(triangles);
+void build_bvh(Scene& scene) {
+    scene.nodes.clear();
+    if (scene.triangles.empty())
+        return;
+    BvhBuilder builder(scene.triangles);
     builder.build();
-    reorder(triangles, builder.get_references());
-    if (!normals.empty())
-        reorder(normals, builder.get_references());
-    return builder.take_nodes();
+    reorder(scene.triangles, builder.get_references());
+    reorder(scene.normals, builder.get_references());
+    reorder(scene.corner_coordinates, builder.get_references());
+    reorder(scene.corner_colors, builder.get_references());
+    scene.nodes = builder.take_nodes();
 }
 
 } // namespace photonloupe

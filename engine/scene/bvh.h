@@ -2,9 +2,7 @@
 // Builds the bounding volume hierarchy that the kernels traverse, with binned surface-area costs.
 #pragma once
 
-#include <vector>
-
-#include "shared/scene.h"
+#include "scene/scene.h"
 
 namespace photonloupe {
 
@@ -16,10 +14,8 @@ static_assert(BVH_MAX_DEPTH < shared::BVH_STACK_SIZE);
 // The longest leaf, reached only where splitting does not pay.
 constexpr std::uint32_t BVH_MAX_LEAF_TRIANGLES = 8;
 
-// Returns the nodes (none without triangles) and reorders both arrays so that leaves own consecutive triangles.
-// The same triangles give the same tree, and scaling them by a power of two gives the scaled tree.
-// `normals` is empty or as long as `triangles`.
-std::vector<shared::BvhNode> build_bvh(std::vector<shared::Triangle>& triangles,
-                                       std::vector<shared::TriangleNormals>& normals);
+// Builds the nodes (none without triangles) and reorders all that is kept for each triangle, so that leaves own consecutive
+// ones. The same triangles give the same tree, and scaling them by a power of two gives the scaled tree.
+void build_bvh(Scene& scene);
 
 } // namespace photonloupe

@@ -49,6 +49,10 @@ std::string describe_material(const shared::Material& material) {
              << " 1/m";
     if (material.emission_transmission.x + material.emission_transmission.y + material.emission_transmission.z > 0)
         text << ", emits " << format_vector(material.emission_transmission) << " W/(m² sr)";
+    if (material.alpha.y == shared::ALPHA_MASK)
+        text << ", masked below alpha " << material.alpha.z;
+    if (material.alpha.y == shared::ALPHA_BLEND)
+        text << ", alpha " << material.alpha.x;
     return text.str();
 }
 
@@ -125,13 +129,14 @@ const char* name_kind(const shared::Light& light) {
     return NAMES[find_kind(light)];
 }
 
-SceneFeatures list_features(const SceneReport& report) {
+SceneFeatures list_features(const Scene& scene) {
+    const SceneReport& report = scene.report;
     const std::pair<bool, const char*> features[] = {{report.has_diffuse, "Lambert"},
                                                      {report.has_mirror, "mirrors"},
                                                      {report.has_dielectric, "dielectrics"},
                                                      {report.has_rough, "roughness"},
                                                      {report.has_absorption, "absorption"},
-                                                     {report.has_thin, "thin glass"},
+                                                     {report.has_thin, "thin glass"}, {!scene.textures.empty(), "textures"}, {!scene.corner_colors.empty(), "vertex colors"}, {report.has_alpha, "alpha"},
                                                      {report.has_emission, "emission seen by cameras"}};
     SceneFeatures result;
     for (const auto& [present, name] : features)
@@ -158,7 +163,7 @@ std::string describe_scene(const Scene& scene) {
     text << scene.materials.size() << (scene.materials.size() == 1 ? " material\n" : " materials\n");
     for (std::size_t i = 0; i < scene.materials.size(); ++i)
         text << "  " << scene.material_names[i] << ": " << describe_material(scene.materials[i]) << "\n";
-    const SceneFeatures features = list_features(scene.report);
+    const SceneFeatures features = list_features(scene);
     text << "required: " << join(features.required) << "\nleft out: " << join(features.left_out) << "\n";
     list_lines(text, "ignored:", scene.report.ignored);
     list_lines(text, "notes:", scene.report.notes);

@@ -68,6 +68,8 @@ void add_square(Scene& scene, const std::string& name, const shared::Material& m
     const auto index = static_cast<std::uint32_t>(scene.materials.size());
     scene.materials.push_back(material);
     scene.material_names.push_back(name);
+    if (!scene.paints.empty())
+        scene.paints.emplace_back();
     scene.objects.push_back({name, index, 2});
     // Of what is wide, such as a floor, only the height counts: cameras fit the rest.
     const double reach = glm::length(half_u) + glm::length(half_v);
@@ -85,8 +87,12 @@ void add_square(Scene& scene, const std::string& name, const shared::Material& m
                                    {localize(scene, corners[i + 1]), std::bit_cast<float>(index)},
                                    {localize(scene, corners[i + 2]), std::bit_cast<float>(i)}});
         scene.normals.push_back({normal, normal, normal});
+        if (!scene.corner_coordinates.empty())
+            scene.corner_coordinates.emplace_back();
+        if (!scene.corner_colors.empty())
+            scene.corner_colors.push_back({glm::vec4(1.0f), glm::vec4(1.0f), glm::vec4(1.0f)});
     }
-    report_material(material, "material " + quote_text(name), scene.report);
+    report_material(material, material, "material " + quote_text(name), scene.report);
 }
 
 // Lights of objects that emit come last, and are listed again.
@@ -98,7 +104,7 @@ void rebuild(Scene& scene) {
     scene.lights.resize(kept);
     scene.light_names.resize(kept);
     scene.emitting.clear();
-    scene.nodes = build_bvh(scene.triangles, scene.normals);
+    build_bvh(scene);
     list_emitting_objects(scene);
 }
 

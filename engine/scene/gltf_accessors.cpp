@@ -1,33 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checked arithmetic on buffers, views and accessors; all sums and products are of values below 2^32.
+// Checked arithmetic on buffer views and accessors; all sums and products are of values below 2^32.
 #include "scene/gltf_accessors.h"
 
 #include <array>
+#include <cstring>
 
 #include <nlohmann/json.hpp>
 
-#include "scene/gltf_container.h"
-#include "scene/gltf_uri.h"
+#include "core/error.h"
 #include "scene/limits.h"
 
 namespace photonloupe {
 namespace {
 
 constexpr const char* REMEDY = "repair the file or export it again";
-// glTF 2.0, section 5.11: strides are multiples of 4 up to 252.
-constexpr std::uint64_t MAX_STRIDE = 252;
-
-struct BufferView {
-    std::size_t buffer = 0;
-    std::uint64_t offset = 0;
-    std::uint64_t length = 0;
-    std::uint64_t stride = 0; // 0: packed
-};
 
 struct ElementKind {
     const char* type;
-    std::uint64_t columns;
-    std::uint64_t rows;
+    std::uint32_t columns;
+    std::uint32_t rows;
 };
 constexpr std::array<ElementKind, 7> ELEMENT_KINDS{
     {{"SCALAR", 1, 1}, {"VEC2", 1, 2}, {"VEC3", 1, 3}, {"VEC4", 1, 4}, {"MAT2", 2, 2}, {"MAT3", 3, 3}, {"MAT4", 4, 4}}};
@@ -48,177 +39,150 @@ std::uint64_t measure_component(std::uint64_t component_type, const JsonPlace& p
     }
 }
 
-// Columns of matrices start at multiples of 4 bytes.
-std::uint64_t measure_element(const AccessorSpan& accessor, std::uint64_t component_bytes) {
+ElementKind find_kind(const JsonPlace& place) {
+    const std::string type = read_string(require_member(place, "type"));
     for (const ElementKind& kind : ELEMENT_KINDS)
-        if (accessor.type == kind.type) {
-            const std::uint64_t column = kind.rows * component_bytes;
-            return kind.columns == 1 ? column : kind.columns * ((column + 3) / 4 * 4);
-        }
-    refuse(accessor.place, "type " + quote_text(accessor.type) + " is none of glTF 2.0", REMEDY);
+        if (type == kind.type)
+            return kind;
+    refuse(place, "type " + quote_text(type) + " is none of glTF 2.0", REMEDY);
 }
 
-BufferView check_view(const JsonPlace& root, std::uint32_t index, const BufferBytes& buffers) {
-    const JsonPlace place = get_element(find_member(root, "bufferViews"), index);
-    BufferView view;
-    view.buffer = *read_index(require_member(place, "buffer"), buffers.size(), "buffer");
-    const std::uint64_t available = buffers[view.buffer].size();
-    view.offset = read_unsigned_or(find_member(place, "byteOffset"), MAX_BUFFER_BYTES, 0);
-    view.length = read_unsigned(require_member(place, "byteLength"), MAX_BUFFER_BYTES);
-    view.stride = read_unsigned_or(find_member(place, "byteStride"), MAX_STRIDE, 0);
-    if (view.stride % 4 != 0)
-        refuse(place, "byteStride " + std::to_string(view.stride) + " is no multiple of 4", REMEDY);
-    if (view.length == 0)
-        refuse(place, "byteLength is 0", REMEDY);
-    if (view.offset + view.length > available)
-        refuse(place,
-               "it ends at byte " + std::to_string(view.offset + view.length) + " of buffer " +
-                   std::to_string(view.buffer) + ", which has " + std::to_string(available),
-               REMEDY);
-    return view;
+// Columns of matrices start at multiples of 4 bytes.
+std::uint64_t measure_element(const ElementKind& kind, std::uint64_t component_bytes) {
+    const std::uint64_t column = kind.rows * component_bytes;
+    return kind.columns == 1 ? column : kind.columns * ((column + 3) / 4 * 4);
 }
 
-// Places `count` elements in a view; `offset` is inside the view.
-void check_extent(const JsonPlace& place, const BufferView& view, std::uint64_t offset, std::uint64_t count,
-                  std::uint64_t stride, std::uint64_t element_bytes, std::uint64_t component_bytes) {
-    if (stride < element_bytes)
+// What accessors without a buffer view read, again and again: a MAT4 of floats is the largest element.
+constexpr std::array<unsigned char, 64> ZEROS{};
+
+// Lets a column view its elements, from the place's byteOffset on. A stride of 0 means packed.
+void place_elements(const JsonPlace& place, std::span<const unsigned char> view, std::uint64_t stride,
+                    AccessorColumn& column) {
+    const std::uint64_t offset = read_unsigned_or(find_member(place, "byteOffset"), MAX_BUFFER_BYTES, 0);
+    column.stride = stride ? stride : column.element_bytes;
+    if (column.stride < column.element_bytes)
         refuse(place, "the view's byteStride " + std::to_string(stride) + " is shorter than an element", REMEDY);
-    if ((view.offset + offset) % component_bytes != 0 || stride % component_bytes != 0)
-        refuse(place, "its elements are not aligned to their component size", REMEDY);
-    const std::uint64_t end = offset + (count - 1) * stride + element_bytes;
-    if (end > view.length)
+    const std::uint64_t end = offset + (column.count - 1) * column.stride + column.element_bytes;
+    if (end > view.size())
         refuse(place,
-               "its " + std::to_string(count) + " elements end at byte " + std::to_string(end) +
-                   " of a buffer view of " + std::to_string(view.length),
+               "its " + std::to_string(column.count) + " elements end at byte " + std::to_string(end) +
+                   " of a buffer view of " + std::to_string(view.size()),
                REMEDY);
-}
-
-void check_sparse(const JsonPlace& root, const AccessorSpan& accessor, std::uint64_t element_bytes,
-                  std::uint64_t component_bytes, const BufferBytes& buffers) {
-    const JsonPlace sparse = find_member(accessor.place, "sparse");
-    const std::size_t view_count = count_elements(find_member(root, "bufferViews"), MAX_ENTRIES);
-    const std::uint64_t count = read_unsigned(require_member(sparse, "count"), accessor.count);
-    if (count == 0)
-        refuse(sparse, "count is 0", REMEDY);
-    for (const char* part : {"indices", "values"}) {
-        const JsonPlace place = require_member(sparse, part);
-        const BufferView view =
-            check_view(root, *read_index(require_member(place, "bufferView"), view_count, "buffer view"), buffers);
-        const std::uint64_t offset = read_unsigned_or(find_member(place, "byteOffset"), MAX_BUFFER_BYTES, 0);
-        std::uint64_t element = element_bytes, component = component_bytes;
-        if (std::string_view(part) == "indices")
-            element = component =
-                measure_component(read_unsigned(require_member(place, "componentType"), COMPONENT_FLOAT), place);
-        check_extent(place, view, offset, count, element, element, component);
-    }
-}
-
-AccessorSpan check_accessor(const JsonPlace& root, const JsonPlace& place, std::size_t view_count,
-                            const BufferBytes& buffers) {
-    AccessorSpan accessor;
-    accessor.place = place;
-    accessor.type = read_string(require_member(place, "type"));
-    accessor.component_type = read_unsigned(require_member(place, "componentType"), COMPONENT_FLOAT);
-    accessor.count = read_unsigned(require_member(place, "count"), MAX_BUFFER_BYTES);
-    if (accessor.count == 0)
-        refuse(place, "count is 0", REMEDY);
-    const JsonPlace normalized = find_member(place, "normalized");
-    accessor.is_normalized = normalized.value && normalized.value->is_boolean() && normalized.value->get<bool>();
-    const std::uint64_t component_bytes = measure_component(accessor.component_type, place);
-    const std::uint64_t element_bytes = measure_element(accessor, component_bytes);
-    accessor.is_sparse = find_member(place, "sparse").value != nullptr;
-    const auto view_index = read_index(find_member(place, "bufferView"), view_count, "buffer view");
-    if (view_index) {
-        const BufferView view = check_view(root, *view_index, buffers);
-        const std::uint64_t offset = read_unsigned_or(find_member(place, "byteOffset"), MAX_BUFFER_BYTES, 0);
-        accessor.stride = view.stride ? view.stride : element_bytes;
-        check_extent(place, view, offset, accessor.count, accessor.stride, element_bytes, component_bytes);
-        accessor.has_bytes = true;
-        accessor.buffer = view.buffer;
-        accessor.offset = view.offset + offset;
-    }
-    if (accessor.is_sparse)
-        check_sparse(root, accessor, element_bytes, component_bytes, buffers);
-    return accessor;
-}
-
-std::vector<unsigned char> read_buffer(const JsonPlace& place, std::size_t index, const std::filesystem::path& folder,
-                                       std::optional<std::span<const unsigned char>> binary_chunk,
-                                       std::uint64_t budget) {
-    const std::uint64_t length = read_unsigned(require_member(place, "byteLength"), MAX_BUFFER_BYTES);
-    if (length == 0)
-        refuse(place, "byteLength is 0", REMEDY);
-    if (length > budget)
-        refuse(place, "the buffers together exceed " + std::to_string(MAX_BUFFER_BYTES) + " bytes", "split the scene");
-    const JsonPlace uri_place = find_member(place, "uri");
-    std::vector<unsigned char> bytes;
-    if (uri_place.value) {
-        const std::string uri = read_string(uri_place);
-        if (auto data = decode_data_uri(uri, uri_place))
-            bytes = std::move(*data);
-        else
-            bytes = read_file_bytes(resolve_uri(uri, folder, uri_place), length, MAX_BUFFER_BYTES, uri_place);
-    } else if (index == 0 && binary_chunk) {
-        bytes.assign(binary_chunk->begin(),
-                     binary_chunk->begin() + std::min<std::uint64_t>(length, binary_chunk->size()));
-    } else {
-        refuse(place, "it has neither a uri nor a binary chunk", "only buffer 0 of a GLB may do without a uri");
-    }
-    if (bytes.size() < length)
-        refuse(place,
-               "byteLength is " + std::to_string(length) + ", but there are " + std::to_string(bytes.size()) + " bytes",
-               REMEDY);
-    bytes.resize(length);
-    return bytes;
+    column.bytes = view.data() + offset;
 }
 
 } // namespace
 
-BufferBytes read_buffers(const JsonPlace& root, const std::filesystem::path& folder,
-                         std::optional<std::span<const unsigned char>> binary_chunk) {
-    const JsonPlace places = find_member(root, "buffers");
-    const std::size_t count = count_elements(places, MAX_ENTRIES);
-    BufferBytes buffers;
-    std::uint64_t total = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        buffers.push_back(read_buffer(get_element(places, i), i, folder, binary_chunk, MAX_BUFFER_BYTES - total));
-        total += buffers.back().size();
-    }
-    return buffers;
+AccessorTable::AccessorTable(const JsonPlace& root, BufferBytes& buffers)
+    : m_views(find_member(root, "bufferViews")), m_accessors(find_member(root, "accessors")), m_buffers(buffers),
+      m_file_buffer_count(buffers.size()), m_view_count(count_elements(m_views, MAX_ENTRIES)),
+      m_columns(count_elements(m_accessors, MAX_ENTRIES)) {}
+
+JsonPlace AccessorTable::get_place(std::uint32_t accessor) const {
+    return get_element(m_accessors, accessor);
 }
 
-std::vector<AccessorSpan> check_accessors(const JsonPlace& root, const BufferBytes& buffers) {
-    const std::size_t view_count = count_elements(find_member(root, "bufferViews"), MAX_ENTRIES);
-    for (std::size_t i = 0; i < view_count; ++i)
-        check_view(root, std::uint32_t(i), buffers);
-    const JsonPlace places = find_member(root, "accessors");
-    const std::size_t count = count_elements(places, MAX_ENTRIES);
-    std::vector<AccessorSpan> accessors;
-    for (std::size_t i = 0; i < count; ++i)
-        accessors.push_back(check_accessor(root, get_element(places, i), view_count, buffers));
-    return accessors;
+const AccessorColumn& AccessorTable::use(std::uint32_t accessor) {
+    AccessorColumn& column = m_columns[accessor];
+    if (column.bytes)
+        return column;
+    const JsonPlace place = get_place(accessor);
+    column = check_accessor(place);
+    if (find_member(place, "sparse").value)
+        column = decode_sparse(place, column);
+    return column;
 }
 
-void write_accessors(const std::vector<AccessorSpan>& accessors, const BufferBytes& buffers, Json& approved) {
-    for (std::size_t i = 0; i < buffers.size(); ++i)
-        approved["buffers"].push_back({{"uri", name_buffer(i)}, {"byteLength", buffers[i].size()}});
-    for (const AccessorSpan& accessor : accessors) {
-        Json entry{{"type", accessor.type}, {"componentType", accessor.component_type}, {"count", accessor.count}};
-        if (accessor.has_bytes) {
-            Json view{{"buffer", accessor.buffer},
-                      {"byteOffset", accessor.offset},
-                      {"byteLength", buffers[accessor.buffer].size() - accessor.offset}};
-            if (accessor.stride % 4 == 0 && accessor.stride <= MAX_STRIDE)
-                view["byteStride"] = accessor.stride;
-            entry["bufferView"] = approved["bufferViews"].size();
-            approved["bufferViews"].push_back(std::move(view));
+void AccessorTable::list_broken(std::vector<std::string>& ignored) const {
+    std::size_t count = 0;
+    std::string first;
+    for (std::uint32_t i = 0; i < m_columns.size(); ++i)
+        try {
+            if (!m_columns[i].bytes)
+                check_accessor(get_place(i));
+        } catch (const SceneError& error) {
+            if (count++ == 0)
+                first = error.what();
         }
-        approved["accessors"].push_back(std::move(entry));
-    }
+    if (count > 0)
+        ignored.push_back("broken accessors that nothing drawn uses (" + std::to_string(count) + "): " + first);
 }
 
-std::string name_buffer(std::size_t index) {
-    return "buffer-" + std::to_string(index);
+AccessorTable::BufferView AccessorTable::check_view(const JsonPlace& index_place) const {
+    const JsonPlace place = get_element(m_views, *read_index(index_place, m_view_count, "buffer view"));
+    const std::size_t buffer = *read_index(require_member(place, "buffer"), m_file_buffer_count, "buffer");
+    const std::uint64_t offset = read_unsigned_or(find_member(place, "byteOffset"), MAX_BUFFER_BYTES, 0);
+    const std::uint64_t length = read_unsigned(require_member(place, "byteLength"), MAX_BUFFER_BYTES);
+    const std::uint64_t stride = read_unsigned_or(find_member(place, "byteStride"), MAX_BUFFER_BYTES, 0);
+    if (length == 0)
+        refuse(place, "byteLength is 0", REMEDY);
+    if (offset + length > m_buffers[buffer].size())
+        refuse(place,
+               "it ends at byte " + std::to_string(offset + length) + " of buffer " + std::to_string(buffer) +
+                   ", which has " + std::to_string(m_buffers[buffer].size()),
+               REMEDY);
+    return {std::span(m_buffers[buffer]).subspan(offset, length), stride};
+}
+
+AccessorColumn AccessorTable::check_accessor(const JsonPlace& place) const {
+    AccessorColumn column;
+    column.component_type = read_unsigned(require_member(place, "componentType"), COMPONENT_FLOAT);
+    column.count = read_unsigned(require_member(place, "count"), MAX_BUFFER_BYTES);
+    if (column.count == 0)
+        refuse(place, "count is 0", REMEDY);
+    column.is_normalized = read_flag_or(find_member(place, "normalized"), false);
+    const ElementKind kind = find_kind(place);
+    column.width = kind.columns * kind.rows;
+    column.element_bytes = measure_element(kind, measure_component(column.component_type, place));
+    column.bytes = ZEROS.data();
+    if (const JsonPlace index = find_member(place, "bufferView"); index.value) {
+        const BufferView view = check_view(index);
+        place_elements(place, view.bytes, view.stride, column);
+    }
+    return column;
+}
+
+AccessorColumn AccessorTable::check_sparse_part(const JsonPlace& sparse, const char* part,
+                                                AccessorColumn column) const {
+    const JsonPlace place = require_member(sparse, part);
+    place_elements(place, check_view(require_member(place, "bufferView")).bytes, 0, column);
+    return column;
+}
+
+AccessorColumn AccessorTable::decode_sparse(const JsonPlace& place, AccessorColumn column) {
+    const JsonPlace sparse = find_member(place, "sparse");
+    const std::uint64_t count = column.count;
+    const std::span<unsigned char> packed = allocate(place, count * column.element_bytes);
+    for (std::uint64_t i = 0; i < count; ++i)
+        std::memcpy(&packed[i * column.element_bytes], column.bytes + i * column.stride, column.element_bytes);
+    column.bytes = packed.data();
+    column.stride = column.element_bytes;
+    AccessorColumn indices, values = column;
+    indices.count = values.count = read_unsigned(require_member(sparse, "count"), count);
+    if (values.count == 0)
+        refuse(sparse, "count is 0", REMEDY);
+    const JsonPlace type = require_member(require_member(sparse, "indices"), "componentType");
+    indices.component_type = read_unsigned(type, COMPONENT_UNSIGNED_INT);
+    if (!indices.is_unsigned())
+        refuse(type, "sparse indices must be of unsigned 8, 16 or 32 bits", REMEDY);
+    indices.element_bytes = measure_component(indices.component_type, type);
+    indices = check_sparse_part(sparse, "indices", indices);
+    values = check_sparse_part(sparse, "values", values);
+    for (std::uint64_t i = 0; i < values.count; ++i) {
+        const std::uint64_t target = indices.read_unsigned(i);
+        if (target >= count)
+            refuse(sparse, "it replaces element " + std::to_string(target) + " of " + std::to_string(count), REMEDY);
+        std::memcpy(&packed[target * column.element_bytes], values.bytes + i * values.stride, column.element_bytes);
+    }
+    return column;
+}
+
+std::span<unsigned char> AccessorTable::allocate(const JsonPlace& place, std::uint64_t byte_count) {
+    if (byte_count > MAX_DECODED_BYTES - m_decoded_bytes)
+        refuse(place, "what is decoded exceeds " + std::to_string(MAX_DECODED_BYTES) + " bytes", "split the scene");
+    m_decoded_bytes += byte_count;
+    return m_buffers.emplace_back(byte_count);
 }
 
 } // namespace photonloupe

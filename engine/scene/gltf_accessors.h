@@ -1,51 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks buffers, buffer views and accessors against the bytes that are really there.
+// Checks buffer views and accessors against the bytes that are really there, and decodes sparse accessors.
 #pragma once
 
-#include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/json_place.h"
+#include "scene/accessor_column.h"
+#include "scene/gltf_buffers.h"
 
 namespace photonloupe {
 
-// An accessor whose every element lies inside its buffer.
-struct AccessorSpan {
-    JsonPlace place;
-    std::string type;                 // "SCALAR", "VEC3", …
-    std::uint64_t component_type = 0; // as in glTF: 5126 is float
-    bool is_normalized = false;
-    bool is_sparse = false;
-    bool has_bytes = false; // without a buffer view glTF means zeros
-    std::uint64_t count = 0;
-    std::uint64_t stride = 0;
-    std::size_t buffer = 0;
-    std::uint64_t offset = 0; // of the first element in the buffer
+// Checks each accessor when it is first used: what nothing uses may be broken.
+class AccessorTable {
+public:
+    // Columns view `buffers`; what is decoded is appended there.
+    AccessorTable(const JsonPlace& root, BufferBytes& buffers);
+
+    std::size_t get_count() const { return m_columns.size(); }
+    JsonPlace get_place(std::uint32_t accessor) const;
+    const AccessorColumn& use(std::uint32_t accessor);
+    // By accessor; those that were not used have no bytes.
+    std::vector<AccessorColumn> take_columns() { return std::move(m_columns); }
+    // One sentence if accessors that nothing used are broken.
+    void list_broken(std::vector<std::string>& ignored) const;
+
+private:
+    struct BufferView {
+        std::span<const unsigned char> bytes;
+        std::uint64_t stride = 0; // 0: packed
+    };
+
+    BufferView check_view(const JsonPlace& index_place) const;
+    // Of zeros without a buffer view.
+    AccessorColumn check_accessor(const JsonPlace& place) const;
+    AccessorColumn check_sparse_part(const JsonPlace& sparse, const char* part, AccessorColumn column) const;
+    AccessorColumn decode_sparse(const JsonPlace& place, AccessorColumn column);
+    std::span<unsigned char> allocate(const JsonPlace& place, std::uint64_t byte_count);
+
+    JsonPlace m_views, m_accessors;
+    BufferBytes& m_buffers;
+    std::size_t m_file_buffer_count;
+    std::size_t m_view_count;
+    std::uint64_t m_decoded_bytes = 0;
+    std::vector<AccessorColumn> m_columns;
 };
-
-constexpr std::uint64_t COMPONENT_BYTE = 5120;
-constexpr std::uint64_t COMPONENT_UNSIGNED_BYTE = 5121;
-constexpr std::uint64_t COMPONENT_SHORT = 5122;
-constexpr std::uint64_t COMPONENT_UNSIGNED_SHORT = 5123;
-constexpr std::uint64_t COMPONENT_UNSIGNED_INT = 5125;
-constexpr std::uint64_t COMPONENT_FLOAT = 5126;
-
-using BufferBytes = std::vector<std::vector<unsigned char>>;
-
-// Reads every buffer, each cut to its byteLength.
-BufferBytes read_buffers(const JsonPlace& root, const std::filesystem::path& folder,
-                         std::optional<std::span<const unsigned char>> binary_chunk);
-
-// Checks all accessors, and the buffer views they use.
-std::vector<AccessorSpan> check_accessors(const JsonPlace& root, const BufferBytes& buffers);
-
-// The document's part that describes approved accessors: one buffer view each.
-void write_accessors(const std::vector<AccessorSpan>& accessors, const BufferBytes& buffers, Json& approved);
-
-// Name under which a buffer is handed on.
-std::string name_buffer(std::size_t index);
 
 } // namespace photonloupe

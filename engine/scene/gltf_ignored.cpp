@@ -14,22 +14,17 @@
 namespace photonloupe {
 namespace {
 
-constexpr std::array<std::string_view, 5> KNOWN_EXTENSIONS{"KHR_lights_punctual", "KHR_materials_transmission",
-                                                           "KHR_materials_volume", "KHR_materials_ior",
-                                                           "KHR_materials_emissive_strength"};
+constexpr std::array<std::string_view, 8> KNOWN_EXTENSIONS{
+    "KHR_lights_punctual",   "KHR_materials_transmission",      "KHR_materials_volume",
+    "KHR_materials_ior",     "KHR_materials_emissive_strength", "KHR_mesh_quantization",
+    "KHR_texture_transform", "EXT_texture_webp"};
 
 // Members that are listed wherever they stand; the text is what the user reads.
 const std::map<std::string_view, const char*>& get_member_features() {
     static const std::map<std::string_view, const char*> features{
-        {"baseColorTexture", "base color textures"},
-        {"metallicRoughnessTexture", "metallic-roughness textures"},
-        {"normalTexture", "normal textures"},
         {"occlusionTexture", "occlusion textures"},
-        {"emissiveTexture", "emissive textures (what they light up is dark)"},
-        {"transmissionTexture", "transmission textures"},
         {"thicknessTexture", "thickness textures"},
         {"targets", "morph targets"},
-        {"COLOR_0", "vertex colors"},
         {"orthographic", "orthographic cameras"},
         {"range", "the range of lights (light reaches everywhere)"},
     };
@@ -65,15 +60,6 @@ void count_used_extensions(const JsonPlace& root, std::map<std::string, std::siz
     }
 }
 
-void list_alpha(const JsonPlace& root, std::vector<std::string>& ignored) {
-    const JsonPlace materials = find_member(root, "materials");
-    for (std::size_t i = 0; i < count_elements(materials, MAX_ENTRIES); ++i) {
-        const JsonPlace material = get_element(materials, i);
-        if (read_string_or(find_member(material, "alphaMode"), "OPAQUE") != "OPAQUE")
-            ignored.push_back(material.path + ": alpha is not modeled, the surface is opaque");
-    }
-}
-
 } // namespace
 
 bool is_known_extension(std::string_view name) {
@@ -84,13 +70,12 @@ std::vector<std::string> list_ignored_features(const JsonPlace& root) {
     std::map<std::string, std::size_t> counts;
     count_features(*root.value, counts);
     count_used_extensions(root, counts);
-    for (const char* section : {"images", "textures", "skins", "animations"})
+    for (const char* section : {"skins", "animations"})
         if (const std::size_t count = count_elements(find_member(root, section), MAX_ENTRIES))
             counts[section] = count;
     std::vector<std::string> ignored;
     for (const auto& [feature, count] : counts)
         ignored.push_back(feature + (count > 1 ? " (" + std::to_string(count) + ")" : "") + ": not modeled");
-    list_alpha(root, ignored);
     return ignored;
 }
 

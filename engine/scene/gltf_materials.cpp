@@ -44,6 +44,13 @@ void write_volume(const JsonPlace& material, Json& extensions) {
         approved["attenuationDistance"] = read_number(distance, require_positive(distance, NumberRange{}.hi));
 }
 
+std::string check_alpha_mode(const JsonPlace& place) {
+    const std::string mode = read_string_or(place, "OPAQUE");
+    if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND")
+        refuse(place, quote_text(mode) + " is no alpha mode", "use OPAQUE, MASK or BLEND");
+    return mode;
+}
+
 Json check_material(const JsonPlace& place) {
     const JsonPlace pbr = find_member(place, "pbrMetallicRoughness");
     Json extensions = Json::object();
@@ -59,10 +66,9 @@ Json check_material(const JsonPlace& place) {
              {{"baseColorFactor", read_numbers_or(find_member(pbr, "baseColorFactor"), {1, 1, 1, 1}, UNIT)},
               {"metallicFactor", read_number_or(find_member(pbr, "metallicFactor"), 1.0, UNIT)},
               {"roughnessFactor", read_number_or(find_member(pbr, "roughnessFactor"), 1.0, UNIT)}}},
-            // What an emissive texture lights up is part of a surface: all of it would be a lamp.
-            {"emissiveFactor", find_member(place, "emissiveTexture").value
-                                   ? std::vector<double>{0, 0, 0}
-                                   : read_numbers_or(find_member(place, "emissiveFactor"), {0, 0, 0}, UNIT)},
+            {"emissiveFactor", read_numbers_or(find_member(place, "emissiveFactor"), {0, 0, 0}, UNIT)},
+            {"alphaMode", check_alpha_mode(find_member(place, "alphaMode"))},
+            {"alphaCutoff", read_number_or(find_member(place, "alphaCutoff"), 0.5, NOT_NEGATIVE)},
             {"doubleSided", read_flag_or(find_member(place, "doubleSided"), false)},
             {"extensions", std::move(extensions)}};
 }

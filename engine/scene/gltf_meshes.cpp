@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes: accessor kinds, equal lengths, indices in range, finite coordinates.
+// Meshes: accessor kinds, equal lengths, indices in range, finite positions.
 #include "scene/gltf_meshes.h"
 
+#include <array>
 #include <cmath>
-#include <cstring>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -14,93 +15,84 @@ namespace {
 
 constexpr const char* REMEDY = "repair the file or export it again";
 
-template <class Number>
-Number read_bytes(const unsigned char* bytes) {
-    Number number;
-    std::memcpy(&number, bytes, sizeof number); // elements may be unaligned in memory
-    return number;
-}
+// What vertices may have beside their position. Integers of 8 and 16 bits are KHR_mesh_quantization's.
+struct Attribute {
+    const char* name;
+    std::uint32_t fewest_components;
+    std::uint32_t most_components;
+};
+constexpr std::array<Attribute, 5> OPTIONAL_ATTRIBUTES{
+    {{"NORMAL", 3, 3}, {"TANGENT", 4, 4}, {"TEXCOORD_0", 2, 2}, {"TEXCOORD_1", 2, 2}, {"COLOR_0", 3, 4}}};
+constexpr Attribute POSITION{"POSITION", 3, 3};
 
 // Looks at each accessor's bytes once, however many primitives share it.
 class AccessorChecks {
 public:
-    AccessorChecks(const std::vector<AccessorSpan>& accessors, const BufferBytes& buffers)
-        : m_accessors(accessors), m_buffers(buffers), m_largest_index(accessors.size()), m_is_finite(accessors.size()) {
-    }
+    AccessorChecks(AccessorTable& accessors, std::vector<std::string>& ignored)
+        : m_accessors(accessors), m_ignored(ignored), m_largest_index(accessors.get_count()),
+          m_is_finite(accessors.get_count()) {}
 
-    const AccessorSpan& check_vectors(std::uint32_t index, const JsonPlace& use, const char* what) {
-        const AccessorSpan& accessor = m_accessors[index];
-        check_readable(accessor, use);
-        if (accessor.type != "VEC3" || accessor.component_type != COMPONENT_FLOAT)
-            refuse(accessor.place,
-                   std::string(what) + " must be VEC3 of 32-bit floats, this is " + accessor.type + " of type " +
-                       std::to_string(accessor.component_type),
-                   "export it without KHR_mesh_quantization");
+    std::size_t get_count() const { return m_accessors.get_count(); }
+
+    std::uint64_t check_vectors(std::uint32_t index, const Attribute& attribute) {
+        const AccessorColumn& column = m_accessors.use(index);
+        const JsonPlace place = m_accessors.get_place(index);
+        if (column.width < attribute.fewest_components || column.width > attribute.most_components ||
+            column.component_type == COMPONENT_UNSIGNED_INT)
+            refuse(place,
+                   std::string(attribute.name) + " must be VEC" + std::to_string(attribute.most_components) +
+                       " of floats or of integers of 8 or 16 bits, this is " + read_string(find_member(place, "type")) +
+                       " of type " + std::to_string(column.component_type),
+                   REMEDY);
         if (!m_is_finite[index])
-            check_finite(accessor, what);
+            check_finite(column, place, attribute);
         m_is_finite[index] = true;
-        return accessor;
+        return column.count;
     }
 
-    const AccessorSpan& check_indices(std::uint32_t index, std::uint64_t vertex_count, const JsonPlace& use) {
-        const AccessorSpan& accessor = m_accessors[index];
-        check_readable(accessor, use);
-        const bool is_index_type = accessor.component_type == COMPONENT_UNSIGNED_BYTE ||
-                                   accessor.component_type == COMPONENT_UNSIGNED_SHORT ||
-                                   accessor.component_type == COMPONENT_UNSIGNED_INT;
-        if (accessor.type != "SCALAR" || !is_index_type || accessor.is_normalized)
-            refuse(accessor.place, "indices must be SCALAR of unsigned 8, 16 or 32 bits", REMEDY);
+    // Returns the number of indices.
+    std::uint64_t check_indices(std::uint32_t index, std::uint64_t vertex_count, const JsonPlace& use) {
+        const AccessorColumn& column = m_accessors.use(index);
+        const JsonPlace place = m_accessors.get_place(index);
+        if (column.width != 1 || !column.is_unsigned() || column.is_normalized)
+            refuse(place, "indices must be SCALAR of unsigned 8, 16 or 32 bits", REMEDY);
         if (!m_largest_index[index])
-            m_largest_index[index] = find_largest_index(accessor);
+            m_largest_index[index] = find_largest_index(column);
         if (*m_largest_index[index] >= vertex_count)
-            refuse(accessor.place,
+            refuse(place,
                    "index " + std::to_string(*m_largest_index[index]) + " is used by " + use.path +
                        ", which has only " + std::to_string(vertex_count) + " vertices",
                    REMEDY);
-        return accessor;
+        return column.count;
     }
 
 private:
-    void check_readable(const AccessorSpan& accessor, const JsonPlace& use) const {
-        if (accessor.is_sparse)
-            refuse(accessor.place, "sparse accessors are not supported (used by " + use.path + ")",
-                   "export the geometry without them");
-        if (!accessor.has_bytes)
-            refuse(accessor.place, "it has no bufferView (used by " + use.path + ")", REMEDY);
-    }
-
-    const unsigned char* get_element_bytes(const AccessorSpan& accessor, std::uint64_t element) const {
-        return m_buffers[accessor.buffer].data() + accessor.offset + element * accessor.stride;
-    }
-
-    void check_finite(const AccessorSpan& accessor, const char* what) const {
-        for (std::uint64_t i = 0; i < accessor.count; ++i)
-            for (int axis = 0; axis < 3; ++axis)
-                if (!std::isfinite(read_bytes<float>(get_element_bytes(accessor, i) + axis * sizeof(float))))
-                    refuse(accessor.place,
-                           std::string(what) + " " + std::to_string(i) + " is not finite in component " +
-                               std::to_string(axis),
+    // Positions must be finite; normals are replaced where they are read, and counted there.
+    void check_finite(const AccessorColumn& column, const JsonPlace& place, const Attribute& attribute) {
+        std::uint64_t count = 0;
+        for (std::uint64_t i = 0; column.component_type == COMPONENT_FLOAT && i < column.count; ++i)
+            for (std::uint32_t part = 0; part < column.width; ++part) {
+                if (std::isfinite(column.read(i, part)))
+                    continue;
+                ++count;
+                if (attribute.name == POSITION.name)
+                    refuse(place,
+                           "POSITION " + std::to_string(i) + " is not finite in component " + std::to_string(part),
                            "remove NaN and infinity from the mesh");
+            }
+        if (count > 0 && std::string_view(attribute.name) != "NORMAL")
+            m_ignored.push_back(place.path + ": numbers that are not finite (" + std::to_string(count) + ") are 0");
     }
 
-    std::uint64_t find_largest_index(const AccessorSpan& accessor) const {
+    static std::uint64_t find_largest_index(const AccessorColumn& column) {
         std::uint64_t largest = 0;
-        for (std::uint64_t i = 0; i < accessor.count; ++i) {
-            const unsigned char* bytes = get_element_bytes(accessor, i);
-            std::uint64_t value = 0;
-            if (accessor.component_type == COMPONENT_UNSIGNED_BYTE)
-                value = *bytes;
-            else if (accessor.component_type == COMPONENT_UNSIGNED_SHORT)
-                value = read_bytes<std::uint16_t>(bytes);
-            else
-                value = read_bytes<std::uint32_t>(bytes);
-            largest = std::max(largest, value);
-        }
+        for (std::uint64_t i = 0; i < column.count; ++i)
+            largest = std::max<std::uint64_t>(largest, column.read_unsigned(i));
         return largest;
     }
 
-    const std::vector<AccessorSpan>& m_accessors;
-    const BufferBytes& m_buffers;
+    AccessorTable& m_accessors;
+    std::vector<std::string>& m_ignored;
     std::vector<std::optional<std::uint64_t>> m_largest_index;
     std::vector<bool> m_is_finite;
 };
@@ -116,63 +108,76 @@ std::uint64_t count_triangles(std::uint64_t mode, std::uint64_t vertex_count, co
 }
 
 // Checks one primitive that draws triangles; returns their number.
-std::uint64_t check_triangles(const JsonPlace& place, std::uint64_t mode, std::size_t accessor_count,
-                              std::size_t material_count, AccessorChecks& checks, Json& approved) {
+std::uint64_t check_triangles(const JsonPlace& place, std::uint64_t mode, std::size_t material_count,
+                              AccessorChecks& checks, Json& approved) {
     const JsonPlace attributes = find_member(place, "attributes");
-    const auto positions = *read_index(find_member(attributes, "POSITION"), accessor_count, "accessor");
-    const std::uint64_t vertex_count = checks.check_vectors(positions, place, "POSITION").count;
-    approved = {{"mode", mode}, {"attributes", {{"POSITION", positions}}}};
-    if (const auto normals = read_index(find_member(attributes, "NORMAL"), accessor_count, "accessor")) {
-        const std::uint64_t normal_count = checks.check_vectors(*normals, place, "NORMAL").count;
-        if (normal_count != vertex_count)
-            refuse(place, std::to_string(vertex_count) + " positions but " + std::to_string(normal_count) + " normals",
+    const auto positions = *read_index(find_member(attributes, POSITION.name), checks.get_count(), "accessor");
+    const std::uint64_t vertex_count = checks.check_vectors(positions, POSITION);
+    approved = {{"mode", mode}, {"attributes", {{POSITION.name, positions}}}};
+    for (const Attribute& attribute : OPTIONAL_ATTRIBUTES) {
+        const auto index = read_index(find_member(attributes, attribute.name), checks.get_count(), "accessor");
+        if (!index)
+            continue;
+        const std::uint64_t count = checks.check_vectors(*index, attribute);
+        if (count != vertex_count)
+            refuse(place,
+                   std::to_string(vertex_count) + " positions but " + std::to_string(count) + " of " + attribute.name,
                    REMEDY);
-        approved["attributes"]["NORMAL"] = *normals;
+        approved["attributes"][attribute.name] = *index;
     }
     if (const auto material = read_index(find_member(place, "material"), material_count, "material"))
         approved["material"] = *material;
     std::uint64_t corner_count = vertex_count;
-    if (const auto indices = read_index(find_member(place, "indices"), accessor_count, "accessor")) {
-        corner_count = checks.check_indices(*indices, vertex_count, place).count;
-        approved["indices"] = *indices;
+    if (const auto indices = read_index(find_member(place, "indices"), checks.get_count(), "accessor")) {
+        corner_count = checks.check_indices(*indices, vertex_count, place);
+        approved["attributes"][INDICES] = *indices;
     }
     return count_triangles(mode, corner_count, place);
 }
 
+// Checks the primitives of a mesh that is drawn; returns the number of triangles.
+std::uint64_t check_primitives(const JsonPlace& primitives, std::size_t material_count, AccessorChecks& checks,
+                               Json& approved, std::vector<std::string>& ignored) {
+    std::uint64_t triangle_count = 0;
+    for (std::size_t i = 0; i < count_elements(primitives, MAX_ENTRIES); ++i) {
+        const JsonPlace primitive = get_element(primitives, i);
+        const std::uint64_t mode = read_unsigned_or(find_member(primitive, "mode"), MODE_TRIANGLE_FAN, MODE_TRIANGLES);
+        if (mode < MODE_TRIANGLES) {
+            ignored.push_back(primitive.path + ": points and lines are not modeled");
+        } else if (!find_member(require_member(primitive, "attributes"), POSITION.name).value) {
+            ignored.push_back(primitive.path + ": a primitive without POSITION draws nothing");
+        } else {
+            approved.emplace_back();
+            triangle_count += check_triangles(primitive, mode, material_count, checks, approved.back());
+        }
+    }
+    return triangle_count;
+}
+
 } // namespace
 
-std::vector<std::uint64_t> check_meshes(const JsonPlace& root, const std::vector<AccessorSpan>& accessors,
-                                        const BufferBytes& buffers, Json& approved, std::vector<std::string>& ignored) {
-    AccessorChecks checks(accessors, buffers);
+void check_meshes(const JsonPlace& root, const std::vector<std::uint64_t>& draw_counts, AccessorTable& accessors,
+                  Json& approved, std::vector<std::string>& ignored) {
+    AccessorChecks checks(accessors, ignored);
     const std::size_t material_count = count_elements(find_member(root, "materials"), MAX_ENTRIES);
     const JsonPlace meshes = find_member(root, "meshes");
-    const std::size_t mesh_count = count_elements(meshes, MAX_ENTRIES);
-    std::vector<std::uint64_t> triangle_counts;
-    for (std::size_t mesh = 0; mesh < mesh_count; ++mesh) {
+    std::uint64_t total = 0;
+    for (std::size_t mesh = 0; mesh < draw_counts.size(); ++mesh) {
         const JsonPlace place = get_element(meshes, mesh);
         const JsonPlace primitives = require_member(place, "primitives");
-        const std::size_t primitive_count = count_elements(primitives, MAX_ENTRIES);
         Json approved_primitives = Json::array();
-        std::uint64_t triangle_count = 0;
-        for (std::size_t i = 0; i < primitive_count; ++i) {
-            const JsonPlace primitive = get_element(primitives, i);
-            const std::uint64_t mode =
-                read_unsigned_or(find_member(primitive, "mode"), MODE_TRIANGLE_FAN, MODE_TRIANGLES);
-            if (mode < MODE_TRIANGLES) {
-                ignored.push_back(primitive.path + ": points and lines are not modeled");
-            } else if (!find_member(require_member(primitive, "attributes"), "POSITION").value) {
-                ignored.push_back(primitive.path + ": a primitive without POSITION draws nothing");
-            } else {
-                approved_primitives.emplace_back();
-                triangle_count += check_triangles(primitive, mode, accessors.size(), material_count, checks,
-                                                  approved_primitives.back());
-            }
+        if (draw_counts[mesh] > 0) {
+            const std::uint64_t count =
+                check_primitives(primitives, material_count, checks, approved_primitives, ignored);
+            if (count > 0 && draw_counts[mesh] > (MAX_TRIANGLES - total) / count)
+                refuse(meshes, "the scene draws more than " + std::to_string(MAX_TRIANGLES) + " triangles",
+                       "simplify the meshes or draw fewer instances");
+            total += count * draw_counts[mesh];
         }
-        triangle_counts.push_back(triangle_count);
         approved["meshes"].push_back(
             {{"name", read_string_or(find_member(place, "name"), "")}, {"primitives", std::move(approved_primitives)}});
     }
-    return triangle_counts;
+    accessors.list_broken(ignored);
 }
 
 } // namespace photonloupe

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The node graph: parents, cycles, depth, transforms, and the number of triangles it draws.
+// The node graph: parents, cycles, depth, transforms, and how often it draws each mesh.
 #include "scene/gltf_nodes.h"
 
 #include <algorithm>
@@ -53,7 +53,7 @@ void write_transform(const JsonPlace& node, Json& approved) {
 NodeLinks check_node(const JsonPlace& node, std::size_t node_count, const NodeTargets& targets, Json& approved) {
     NodeLinks links;
     links.children = read_indices(find_member(node, "children"), node_count);
-    links.mesh = read_index(find_member(node, "mesh"), targets.mesh_triangles.size(), "mesh");
+    links.mesh = read_index(find_member(node, "mesh"), targets.mesh_count, "mesh");
     approved = {{"name", read_string_or(find_member(node, "name"), "")}};
     write_transform(node, approved);
     if (!links.children.empty())
@@ -137,23 +137,23 @@ std::vector<std::uint32_t> find_roots(const JsonPlace& root, const JsonPlace& no
     return roots;
 }
 
-void check_triangle_count(const JsonPlace& nodes, const std::vector<NodeLinks>& links,
-                          const std::vector<std::uint64_t>& mesh_triangles, std::vector<std::uint32_t> stack) {
-    std::uint64_t total = 0;
+std::vector<std::uint64_t> count_draws(const std::vector<NodeLinks>& links, std::size_t mesh_count,
+                                       std::vector<std::uint32_t> stack) {
+    std::vector<std::uint64_t> counts(mesh_count, 0);
     while (!stack.empty()) {
         const NodeLinks& node = links[stack.back()];
         stack.pop_back();
         stack.insert(stack.end(), node.children.begin(), node.children.end());
-        total += node.mesh ? mesh_triangles[*node.mesh] : 0; // at most 2^18 nodes of 2^49 triangles
-        if (total > MAX_TRIANGLES)
-            refuse(nodes, "the scene draws more than " + std::to_string(MAX_TRIANGLES) + " triangles",
-                   "simplify the meshes or draw fewer instances");
+        if (node.mesh)
+            ++counts[*node.mesh];
     }
+    return counts;
 }
 
 } // namespace
 
-void check_nodes(const JsonPlace& root, const NodeTargets& targets, Json& approved, std::vector<std::string>& ignored) {
+std::vector<std::uint64_t> check_nodes(const JsonPlace& root, const NodeTargets& targets, Json& approved,
+                                       std::vector<std::string>& ignored) {
     const JsonPlace nodes = find_member(root, "nodes");
     const std::size_t node_count = count_elements(nodes, MAX_ENTRIES);
     std::vector<NodeLinks> links;
@@ -164,9 +164,9 @@ void check_nodes(const JsonPlace& root, const NodeTargets& targets, Json& approv
     link_parents(nodes, links);
     check_depth(nodes, links);
     const std::vector<std::uint32_t> roots = find_roots(root, nodes, links, ignored);
-    check_triangle_count(nodes, links, targets.mesh_triangles, roots);
     approved["scene"] = 0;
     approved["scenes"] = Json::array({{{"nodes", roots}}});
+    return count_draws(links, targets.mesh_count, roots);
 }
 
 } // namespace photonloupe

@@ -10,13 +10,14 @@ namespace photonloupe {
 
 // What nodes may refer to, by count.
 struct NodeTargets {
-    std::vector<std::uint64_t> mesh_triangles; // per mesh
+    std::size_t mesh_count = 0;
     std::size_t camera_count = 0;
     std::size_t light_count = 0;
 };
 
 // Writes the approved nodes and one scene: the file's default scene, or all nodes without a parent.
-// Refuses cycles, nodes with two parents, and more triangles than the engine takes.
-void check_nodes(const JsonPlace& root, const NodeTargets& targets, Json& approved, std::vector<std::string>& ignored);
+// Refuses cycles and nodes with two parents. Returns how often each mesh is drawn.
+std::vector<std::uint64_t> check_nodes(const JsonPlace& root, const NodeTargets& targets, Json& approved,
+                                       std::vector<std::string>& ignored);
 
 } // namespace photonloupe

@@ -75,18 +75,19 @@ ApprovedGltf approve_gltf(std::span<const unsigned char> bytes, const std::files
     Json approved{{"asset", {{"version", "2.0"}}}};
     result.ignored = list_ignored_features(root);
     result.buffers = read_buffers(root, folder, container.binary_chunk);
-    const std::vector<AccessorSpan> accessors = check_accessors(root, result.buffers);
-    write_accessors(accessors, result.buffers, approved);
     check_materials(root, approved);
     result.textures = check_textures(root, result.ignored);
     result.images = read_images(root, folder, result.buffers, result.textures);
+    result.hash = hash_content(container.json, result.buffers, result.images);
     NodeTargets targets;
-    targets.mesh_triangles = check_meshes(root, accessors, result.buffers, approved, result.ignored);
+    targets.mesh_count = count_elements(find_member(root, "meshes"), MAX_ENTRIES);
     targets.camera_count = check_cameras(root, approved);
     targets.light_count = check_lights(root, approved);
-    check_nodes(root, targets, approved, result.ignored);
+    const std::vector<std::uint64_t> draw_counts = check_nodes(root, targets, approved, result.ignored);
+    AccessorTable accessors(root, result.buffers);
+    check_meshes(root, draw_counts, accessors, approved, result.ignored);
+    result.columns = accessors.take_columns();
     result.json = approved.dump();
-    result.hash = hash_content(container.json, result.buffers, result.images);
     return result;
 }
 

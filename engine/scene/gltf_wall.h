@@ -14,8 +14,9 @@ namespace photonloupe {
 
 // A scene file that was taken apart, checked and written anew from known members only.
 struct ApprovedGltf {
-    std::string json; // names its buffers by name_buffer(), has no images, extras or unknown extensions
+    std::string json; // has no buffers, images, extras or unknown extensions
     BufferBytes buffers;
+    std::vector<AccessorColumn> columns;    // by accessor, into the buffers
     std::vector<MaterialTextures> textures; // of the materials
     std::vector<ImageFile> images;
     std::string hash; // XXH3-128 of the file's JSON, its buffers and the images that materials use, hex

@@ -13,6 +13,8 @@ constexpr std::uint64_t MAX_JSON_BYTES = 64ull << 20;
 constexpr std::size_t MAX_JSON_DEPTH = 64;
 // tinygltf keeps byte lengths in 32-bit integers; this holds for one buffer and for all of them together.
 constexpr std::uint64_t MAX_BUFFER_BYTES = (1ull << 31) - 1;
+// Sparse and compressed data is decoded beside the buffers: as much again.
+constexpr std::uint64_t MAX_DECODED_BYTES = MAX_BUFFER_BYTES;
 // A GLB holds its JSON and one buffer.
 constexpr std::uint64_t MAX_FILE_BYTES = MAX_JSON_BYTES + MAX_BUFFER_BYTES;
 // Nodes, meshes, accessors, materials …: each entry costs a few hundred bytes, a million primitives are no scene.

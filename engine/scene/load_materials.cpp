@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/json_place.h"
+#include "scene/load_textures.h"
 
 namespace photonloupe {
 namespace {
@@ -59,6 +60,10 @@ shared::Material convert_material(const tinygltf::Material& material, const std:
     result.base_color_metallic.w = float(pbr.metallicFactor);
     result.absorption_ior = {absorption, float(read_extension_number(material, "KHR_materials_ior", "ior", 1.5))};
     result.emission_transmission.w = float(transmission);
+    const float mode = material.alphaMode == "MASK"    ? shared::ALPHA_MASK
+                       : material.alphaMode == "BLEND" ? shared::ALPHA_BLEND
+                                                       : shared::ALPHA_OPAQUE;
+    result.alpha = {float(pbr.baseColorFactor[3]), mode, float(material.alphaCutoff), 0.0f};
     result.roughness_thin = {float(pbr.roughnessFactor), is_thin ? 1.0f : 0.0f, material.doubleSided ? 1.0f : 0.0f,
                              0.0f};
     return result;
@@ -69,7 +74,46 @@ shared::Material make_default_material() {
     material.base_color_metallic = {1.0f, 1.0f, 1.0f, 1.0f};
     material.absorption_ior = {0.0f, 0.0f, 0.0f, 1.5f};
     material.roughness_thin = {1.0f, 0.0f, 0.0f, 0.0f};
+    material.alpha = {1.0f, shared::ALPHA_OPAQUE, 0.0f, 0.0f};
     return material;
+}
+
+// Clears factors of which textures leave nothing anywhere, and returns what they leave at least of the others.
+shared::Material fold_textures(Scene& scene, std::size_t index) {
+    shared::Material& material = scene.materials[index];
+    if (scene.paints.empty())
+        return material;
+    const shared::MaterialPaint& paint = scene.paints[index];
+    const TextureRange color = find_texture_range(scene, paint.colors.x);
+    const TextureRange shine = find_texture_range(scene, paint.colors.y);
+    const TextureRange emission = find_texture_range(scene, paint.colors.w);
+    const TextureRange transmission = find_texture_range(scene, paint.others.x);
+    const auto clear = [](float& factor, float most) { factor = most > 0 ? factor : 0.0f; };
+    clear(material.base_color_metallic.w, shine.most[2]);
+    clear(material.roughness_thin.x, shine.most[1]);
+    clear(material.emission_transmission.w, transmission.most[0]);
+    for (int channel = 0; channel < 3; ++channel)
+        clear(material.emission_transmission[channel], emission.most[std::size_t(channel)]);
+    shared::Material least = material;
+    least.base_color_metallic.w *= shine.least[2];
+    least.emission_transmission.w *= transmission.least[0];
+    least.alpha.x *= color.least[3];
+    return least;
+}
+
+// The least alpha of vertex colors.
+float find_vertex_alpha(const Scene& scene) {
+    float least = 1.0f;
+    for (const shared::CornerColors& colors : scene.corner_colors)
+        least = std::min({least, colors.c0.w, colors.c1.w, colors.c2.w});
+    return least;
+}
+
+// A surface whose alpha makes no difference is opaque.
+void simplify_alpha(shared::Material& material, float least) {
+    const bool differs = material.alpha.y == shared::ALPHA_MASK ? least < material.alpha.z : least < 1;
+    if (!differs)
+        material.alpha.y = shared::ALPHA_OPAQUE;
 }
 
 std::vector<bool> find_used_materials(const Scene& scene) {
@@ -82,13 +126,15 @@ std::vector<bool> find_used_materials(const Scene& scene) {
 
 } // namespace
 
-void report_material(const shared::Material& material, const std::string& label, SceneReport& report) {
+void report_material(const shared::Material& material, const shared::Material& least, const std::string& label,
+                     SceneReport& report) {
     const float metallic = material.base_color_metallic.w;
     const float transmission = material.emission_transmission.w;
     const float roughness = material.roughness_thin.x;
     const bool is_thin = material.roughness_thin.y != 0.0f;
-    const bool is_clear = metallic < 1 && transmission > 0;
-    const bool is_diffuse = metallic < 1 && transmission < 1;
+    const float least_metallic = least.base_color_metallic.w, least_transmission = least.emission_transmission.w;
+    const bool is_clear = least_metallic < 1 && transmission > 0;
+    const bool is_diffuse = least_metallic < 1 && least_transmission < 1;
     const bool absorbs =
         std::max({material.absorption_ior.x, material.absorption_ior.y, material.absorption_ior.z}) > 0;
     const glm::vec3 emission(material.emission_transmission);
@@ -100,6 +146,8 @@ void report_material(const shared::Material& material, const std::string& label,
     report.has_thin |= is_clear && is_thin;
     report.has_absorption |= is_clear && !is_thin && absorbs;
     report.has_diffuse |= is_diffuse;
+    report.has_mixed_receiver |= is_diffuse && (metallic > 0 || transmission > 0);
+    report.has_alpha |= material.alpha.y != shared::ALPHA_OPAQUE;
     report.has_emission |= emits;
 
     if (is_diffuse)
@@ -119,11 +167,18 @@ void load_materials(const tinygltf::Model& model, Scene& scene) {
     if (needs_default) {
         scene.materials.push_back(make_default_material());
         scene.material_names.push_back("glTF default");
+        if (!scene.paints.empty())
+            scene.paints.emplace_back();
     }
     const std::vector<bool> used = find_used_materials(scene);
+    const float vertex_alpha = find_vertex_alpha(scene);
     for (std::size_t i = 0; i < used.size(); ++i)
-        if (used[i])
-            report_material(scene.materials[i], "material " + quote_text(scene.material_names[i]), scene.report);
+        if (used[i]) {
+            const shared::Material least = fold_textures(scene, i);
+            simplify_alpha(scene.materials[i], least.alpha.x * vertex_alpha);
+            report_material(scene.materials[i], least, "material " + quote_text(scene.material_names[i]),
+                            scene.report);
+        }
 }
 
 } // namespace photonloupe

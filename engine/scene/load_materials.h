@@ -12,7 +12,8 @@ namespace photonloupe {
 // Appends glTF's default material if an object asks for it.
 void load_materials(const tinygltf::Model& model, Scene& scene);
 
-// Notes what a material needs and what is not modeled of it.
-void report_material(const shared::Material& material, const std::string& label, SceneReport& report);
+// Notes what a material needs and what is not modeled of it. `least`: what textures leave of its factors at least.
+void report_material(const shared::Material& material, const shared::Material& least, const std::string& label,
+                     SceneReport& report);
 
 } // namespace photonloupe

@@ -2,10 +2,12 @@
 // Two passes over all primitives: bounds and origin first, then the triangles, rounded to float once.
 #include "scene/load_triangles.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "core/error.h"
@@ -38,8 +40,8 @@ glm::dvec3 transform_point(const glm::dmat4& world, const glm::dvec3& point) {
     return glm::dvec3(world * glm::dvec4(point, 1.0));
 }
 
-std::vector<PlacedPrimitive> place_primitives(const tinygltf::Model& model, const std::vector<PlacedNode>& nodes,
-                                              Scene& scene, Counts& counts) {
+std::vector<PlacedPrimitive> place_primitives(const tinygltf::Model& model, const std::vector<AccessorColumn>& columns,
+                                              const std::vector<PlacedNode>& nodes, Scene& scene, Counts& counts) {
     std::vector<PlacedPrimitive> placed;
     for (const PlacedNode& node : nodes) {
         const int mesh_index = model.nodes[node.node].mesh;
@@ -54,7 +56,7 @@ std::vector<PlacedPrimitive> place_primitives(const tinygltf::Model& model, cons
                 object.name.append("[").append(std::to_string(i)).append("]");
             object.material =
                 std::uint32_t(primitive.material < 0 ? model.materials.size() : std::size_t(primitive.material));
-            placed.push_back({PrimitiveReader(model, primitive), &node, std::uint32_t(scene.objects.size())});
+            placed.push_back({PrimitiveReader(primitive, columns), &node, std::uint32_t(scene.objects.size())});
             scene.objects.push_back(std::move(object));
             counts.without_material += primitive.material < 0;
             counts.flat_primitives += !placed.back().reader.has_normals();
@@ -108,7 +110,8 @@ std::array<std::uint32_t, 3> read_turned_corners(const PrimitiveReader& reader, 
 
 class TriangleWriter {
 public:
-    TriangleWriter(Scene& scene, Counts& counts) : m_scene(scene), m_counts(counts) {}
+    TriangleWriter(Scene& scene, Counts& counts, bool has_colors)
+        : m_scene(scene), m_counts(counts), m_has_colors(has_colors) {}
 
     void write_primitive(const PlacedPrimitive& primitive) {
         const NormalTransform transform(glm::dmat3(primitive.node->world));
@@ -136,6 +139,10 @@ private:
                                      {v[1], std::bit_cast<float>(object.material)},
                                      {v[2], std::bit_cast<float>(source)}});
         write_normals(primitive.reader, transform, corners, *geometric);
+        if (!m_scene.textures.empty())
+            write_coordinates(primitive.reader, corners);
+        if (m_has_colors)
+            write_colors(primitive.reader, corners);
     }
 
     glm::vec3 round_position(const PlacedPrimitive& primitive, std::uint32_t vertex) const {
@@ -165,9 +172,43 @@ private:
             {{glm::vec3(normals[0]), 0.0f}, {glm::vec3(normals[1]), 0.0f}, {glm::vec3(normals[2]), 0.0f}});
     }
 
+    void write_coordinates(const PrimitiveReader& reader, const std::array<std::uint32_t, 3>& corners) {
+        std::array<glm::vec4, 3> coordinates{};
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t set = 0; set < 2; ++set)
+                if (reader.has_texcoords(set)) {
+                    const glm::dvec2 uv = reader.read_texcoord(set, corners[i]);
+                    coordinates[i][2 * set] = float(uv.x);
+                    coordinates[i][2 * set + 1] = float(uv.y);
+                }
+        m_scene.corner_coordinates.push_back({coordinates[0], coordinates[1], coordinates[2]});
+    }
+
+    void write_colors(const PrimitiveReader& reader, const std::array<std::uint32_t, 3>& corners) {
+        std::array<glm::vec4, 3> colors{glm::vec4(1.0f), glm::vec4(1.0f), glm::vec4(1.0f)};
+        for (std::size_t i = 0; i < 3 && reader.has_colors(); ++i)
+            colors[i] = glm::vec4(glm::clamp(reader.read_color(corners[i]), 0.0, 1.0));
+        m_scene.corner_colors.push_back({colors[0], colors[1], colors[2]});
+    }
+
     Scene& m_scene;
     Counts& m_counts;
+    bool m_has_colors;
 };
+
+bool has_colors(const std::vector<PlacedPrimitive>& primitives) {
+    return std::any_of(primitives.begin(), primitives.end(),
+                       [](const PlacedPrimitive& primitive) { return primitive.reader.has_colors(); });
+}
+
+// Colors that change nothing would only cost time.
+void drop_white(std::vector<shared::CornerColors>& colors) {
+    const glm::vec4 white(1.0f);
+    if (std::all_of(colors.begin(), colors.end(), [&](const shared::CornerColors& c) {
+            return c.c0 == white && c.c1 == white && c.c2 == white;
+        }))
+        colors = {};
+}
 
 void note(std::vector<std::string>& notes, std::size_t count, const std::string& singular, const std::string& plural) {
     if (count == 1)
@@ -180,8 +221,9 @@ void note_counts(const Counts& counts, std::vector<std::string>& notes) {
     note(notes, counts.zero_area, "triangle of zero area was dropped", "triangles of zero area were dropped");
     note(notes, counts.flat_primitives, "primitive has no normals and is shaded flat",
          "primitives have no normals and are shaded flat");
-    note(notes, counts.replaced_normals, "shading normal of zero length was replaced by the geometric normal",
-         "shading normals of zero length were replaced by the geometric normal");
+    note(notes, counts.replaced_normals,
+         "shading normal of zero length or not finite was replaced by the geometric normal",
+         "shading normals of zero length or not finite were replaced by the geometric normal");
     note(notes, counts.turned_normals, "triangle has a shading normal on its back side, which was kept",
          "triangles have a shading normal on their back side, which was kept");
     note(notes, counts.without_material,
@@ -191,9 +233,10 @@ void note_counts(const Counts& counts, std::vector<std::string>& notes) {
 
 } // namespace
 
-void load_triangles(const tinygltf::Model& model, const std::vector<PlacedNode>& nodes, Scene& scene) {
+void load_triangles(const tinygltf::Model& model, const std::vector<AccessorColumn>& columns,
+                    const std::vector<PlacedNode>& nodes, Scene& scene) {
     Counts counts;
-    const std::vector<PlacedPrimitive> primitives = place_primitives(model, nodes, scene, counts);
+    const std::vector<PlacedPrimitive> primitives = place_primitives(model, columns, nodes, scene, counts);
     scene.bounds = find_bounds(primitives, scene);
     scene.origin = choose_origin(scene.bounds);
     std::size_t triangle_count = 0;
@@ -201,9 +244,10 @@ void load_triangles(const tinygltf::Model& model, const std::vector<PlacedNode>&
         triangle_count += primitive.reader.get_triangle_count();
     scene.triangles.reserve(triangle_count);
     scene.normals.reserve(triangle_count);
-    TriangleWriter writer(scene, counts);
+    TriangleWriter writer(scene, counts, has_colors(primitives));
     for (const PlacedPrimitive& primitive : primitives)
         writer.write_primitive(primitive);
+    drop_white(scene.corner_colors);
     note_counts(counts, scene.report.notes);
 }
 

@@ -2,17 +2,24 @@
 // Corners of triangles, strips and fans, indexed or not.
 #include "scene/primitive_reader.h"
 
-#include <cstring>
+#include <cmath>
 
 namespace photonloupe {
 
-PrimitiveReader::PrimitiveReader(const tinygltf::Model& model, const tinygltf::Primitive& primitive)
-    : m_positions(find_column(model, primitive.attributes.at("POSITION"))), m_mode(primitive.mode) {
-    if (const auto normals = primitive.attributes.find("NORMAL"); normals != primitive.attributes.end())
-        m_normals = find_column(model, normals->second);
-    if (primitive.indices >= 0)
-        m_indices = find_column(model, primitive.indices);
-    const auto corner_count = std::uint32_t(m_indices ? m_indices->count : m_positions.count);
+PrimitiveReader::PrimitiveReader(const tinygltf::Primitive& primitive, const std::vector<AccessorColumn>& columns)
+    : m_mode(primitive.mode) {
+    const auto find_column = [&](const char* name) {
+        const auto found = primitive.attributes.find(name);
+        return found == primitive.attributes.end() ? AccessorColumn{} : columns.at(std::size_t(found->second));
+    };
+    m_positions = find_column("POSITION");
+    m_normals = find_column("NORMAL");
+    m_tangents = find_column("TANGENT");
+    m_texcoords = {find_column("TEXCOORD_0"), find_column("TEXCOORD_1")};
+    m_colors = find_column("COLOR_0");
+    m_colors.is_normalized = true; // glTF has no other integers here; some exporters leave the flag out
+    m_indices = find_column(INDICES);
+    const auto corner_count = std::uint32_t(m_indices.bytes ? m_indices.count : m_positions.count);
     m_triangle_count = m_mode == TINYGLTF_MODE_TRIANGLES ? corner_count / 3 : corner_count - 2;
 }
 
@@ -28,34 +35,13 @@ std::array<std::uint32_t, 3> PrimitiveReader::read_corners(std::uint32_t triangl
     }
 }
 
-PrimitiveReader::Column PrimitiveReader::find_column(const tinygltf::Model& model, int accessor_index) {
-    const tinygltf::Accessor& accessor = model.accessors.at(std::size_t(accessor_index));
-    const tinygltf::BufferView& view = model.bufferViews.at(std::size_t(accessor.bufferView));
-    const tinygltf::Buffer& buffer = model.buffers.at(std::size_t(view.buffer));
-    return {buffer.data.data() + view.byteOffset + accessor.byteOffset, std::size_t(accessor.ByteStride(view)),
-            accessor.componentType, accessor.count};
-}
-
-glm::dvec3 PrimitiveReader::read_vector(const Column& column, std::uint32_t element) {
-    std::array<float, 3> v;
-    std::memcpy(v.data(), column.bytes + element * column.stride, sizeof v);
-    return {v[0], v[1], v[2]};
-}
-
-std::uint32_t PrimitiveReader::read_vertex(std::uint32_t corner) const {
-    if (!m_indices)
-        return corner;
-    const unsigned char* bytes = m_indices->bytes + corner * m_indices->stride;
-    if (m_indices->component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE)
-        return *bytes;
-    if (m_indices->component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) {
-        std::uint16_t index;
-        std::memcpy(&index, bytes, sizeof index);
-        return index;
+glm::dvec4 PrimitiveReader::read_finite(const AccessorColumn& column, std::uint32_t vertex) {
+    glm::dvec4 vector(0, 0, 0, 1);
+    for (std::uint32_t part = 0; part < column.width; ++part) {
+        const double value = column.read(vertex, part);
+        vector[int(part)] = std::isfinite(value) ? value : 0.0;
     }
-    std::uint32_t index;
-    std::memcpy(&index, bytes, sizeof index);
-    return index;
+    return vector;
 }
 
 } // namespace photonloupe

@@ -4,40 +4,51 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
+#include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <tiny_gltf.h>
+
+#include "scene/accessor_column.h"
 
 namespace photonloupe {
 
 class PrimitiveReader {
 public:
-    PrimitiveReader(const tinygltf::Model& model, const tinygltf::Primitive& primitive);
+    PrimitiveReader(const tinygltf::Primitive& primitive, const std::vector<AccessorColumn>& columns);
 
     std::uint32_t get_triangle_count() const { return m_triangle_count; }
-    bool has_normals() const { return m_normals.has_value(); }
+    bool has_normals() const { return m_normals.bytes; }
+    bool has_tangents() const { return m_tangents.bytes; }
+    bool has_texcoords(std::size_t set) const { return m_texcoords.at(set).bytes; }
+    bool has_colors() const { return m_colors.bytes; }
 
     // Vertex indices, counter-clockwise from outside in the primitive's own space.
     std::array<std::uint32_t, 3> read_corners(std::uint32_t triangle) const;
     glm::dvec3 read_position(std::uint32_t vertex) const { return read_vector(m_positions, vertex); }
-    glm::dvec3 read_normal(std::uint32_t vertex) const { return read_vector(*m_normals, vertex); }
+    // Of any length, and perhaps not finite.
+    glm::dvec3 read_normal(std::uint32_t vertex) const { return read_vector(m_normals, vertex); }
+    // Numbers that are not finite are 0. The handedness of a tangent is its w.
+    glm::dvec4 read_tangent(std::uint32_t vertex) const { return read_finite(m_tangents, vertex); }
+    glm::dvec2 read_texcoord(std::size_t set, std::uint32_t vertex) const {
+        return glm::dvec2(read_finite(m_texcoords[set], vertex));
+    }
+    // Linear; alpha is 1 where the file has none.
+    glm::dvec4 read_color(std::uint32_t vertex) const { return read_finite(m_colors, vertex); }
 
 private:
-    struct Column {
-        const unsigned char* bytes = nullptr;
-        std::size_t stride = 0;
-        int component_type = 0;
-        std::size_t count = 0;
-    };
+    static glm::dvec3 read_vector(const AccessorColumn& column, std::uint32_t vertex) {
+        return {column.read(vertex, 0), column.read(vertex, 1), column.read(vertex, 2)};
+    }
+    static glm::dvec4 read_finite(const AccessorColumn& column, std::uint32_t vertex);
+    std::uint32_t read_vertex(std::uint32_t corner) const {
+        return m_indices.bytes ? m_indices.read_unsigned(corner) : corner;
+    }
 
-    static Column find_column(const tinygltf::Model& model, int accessor);
-    static glm::dvec3 read_vector(const Column& column, std::uint32_t element);
-    std::uint32_t read_vertex(std::uint32_t corner) const;
-
-    Column m_positions;
-    std::optional<Column> m_normals;
-    std::optional<Column> m_indices;
+    AccessorColumn m_positions, m_normals, m_tangents, m_colors, m_indices;
+    std::array<AccessorColumn, 2> m_texcoords;
     int m_mode = 0;
     std::uint32_t m_triangle_count = 0;
 };

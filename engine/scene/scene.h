@@ -44,6 +44,8 @@ struct SceneReport {
     bool has_dielectric = false;
     bool has_thin = false;
     bool has_absorption = false;
+    bool has_alpha = false;
+    bool has_mixed_receiver = false; // a surface that is diffuse in part
     bool has_diffuse = false;
     bool has_emission = false;
 };
@@ -56,9 +58,14 @@ struct Scene {
     Bounds bounds;                           // world
     std::vector<shared::Triangle> triangles; // in BVH leaf order
     std::vector<shared::TriangleNormals> normals;
+    std::vector<shared::CornerCoordinates> corner_coordinates; // by triangle; empty without textures
+    std::vector<shared::CornerColors> corner_colors;           // by triangle; empty where all are white
     std::vector<shared::BvhNode> nodes; // nodes[0] is the root; empty without triangles
     std::vector<shared::Material> materials;
     std::vector<std::string> material_names;
+    std::vector<shared::MaterialPaint> paints; // of the materials; empty without textures
+    std::vector<shared::Texture> textures;
+    std::vector<std::uint32_t> atlas; // ATLAS_TABLE_SIZE linear values, then texels
     std::vector<SceneObject> objects;
     std::vector<shared::Light> lights;
     std::vector<std::string> light_names;
@@ -100,7 +107,7 @@ struct SceneFeatures {
     std::vector<std::string> left_out;
 };
 
-SceneFeatures list_features(const SceneReport& report);
+SceneFeatures list_features(const Scene& scene);
 
 // Human-readable account of the scene: counts, bounds, lights, materials, what is modelled and what was left out.
 std::string describe_scene(const Scene& scene);

@@ -18,6 +18,17 @@ void append_texels(std::vector<glm::vec4>& texels, const std::vector<T>& values)
         std::memcpy(&texels[first], values.data(), values.size() * sizeof(T));
 }
 
+std::vector<std::string> list_paint_defines(const Scene& scene) {
+    std::vector<std::string> defines;
+    if (!scene.textures.empty())
+        defines.emplace_back("HAS_TEXTURES");
+    if (!scene.corner_colors.empty())
+        defines.emplace_back("HAS_VERTEX_COLORS");
+    if (scene.report.has_alpha)
+        defines.emplace_back("HAS_ALPHA");
+    return defines;
+}
+
 } // namespace
 
 SceneBuffers upload_scene(gpu::Device& device, const Scene& scene) {
@@ -37,7 +48,28 @@ SceneBuffers upload_scene(gpu::Device& device, const Scene& scene) {
     buffers.materials = gpu::make_buffer(device, scene.materials, "materials");
     buffers.lights = gpu::make_buffer(device, scene.lights, "lights");
     buffers.emitting = gpu::make_buffer(device, scene.emitting, "emitting triangles");
+    buffers.paints = gpu::make_buffer(device, scene.paints, "paints");
+    buffers.textures = gpu::make_buffer(device, scene.textures, "textures");
+    buffers.atlas = gpu::make_buffer(device, scene.atlas, "texture atlas");
+    buffers.corner_coordinates = gpu::make_buffer(device, scene.corner_coordinates, "texture coordinates");
+    buffers.corner_colors = gpu::make_buffer(device, scene.corner_colors, "vertex colors");
     return buffers;
+}
+
+std::vector<gpu::Binding> SceneBuffers::bind(std::initializer_list<gpu::Binding> others) const {
+    std::vector<gpu::Binding> bindings{{"geometry", geometry},
+                                       {"shading_normals", normals},
+                                       {"materials", materials},
+                                       {"lights", lights},
+                                       {"emitting", emitting},
+                                       {"paints", paints},
+                                       {"textures", textures},
+                                       {"atlas", atlas},
+                                       {"corner_coordinates", corner_coordinates},
+                                       {"corner_colors", corner_colors}};
+    for (const gpu::Binding& other : others)
+        bindings.push_back(other);
+    return bindings;
 }
 
 std::vector<std::string> list_light_defines(const Scene& scene) {
@@ -53,6 +85,10 @@ std::vector<std::string> list_light_defines(const Scene& scene) {
     return defines;
 }
 
+std::vector<std::string> list_passing_defines(const Scene& scene) {
+    return scene.report.has_alpha ? list_paint_defines(scene) : std::vector<std::string>{};
+}
+
 std::vector<std::string> list_scene_defines(const Scene& scene) {
     std::vector<std::string> defines;
     if (scene.report.has_mirror)
@@ -61,6 +97,8 @@ std::vector<std::string> list_scene_defines(const Scene& scene) {
         defines.emplace_back("HAS_DIELECTRIC");
     if (scene.report.has_rough)
         defines.emplace_back("HAS_ROUGH");
+    for (std::string& define : list_paint_defines(scene))
+        defines.push_back(std::move(define));
     if (scene.report.has_absorption)
         defines.emplace_back("HAS_ABSORPTION");
     return defines;

@@ -2,7 +2,10 @@
 // The scene on the device, and which parts of the kernels it requires.
 #pragma once
 
-#include "gpu/buffer.h"
+#include <initializer_list>
+#include <vector>
+
+#include "gpu/commands.h"
 #include "scene/scene.h"
 
 namespace photonloupe {
@@ -13,12 +16,20 @@ struct SceneBuffers {
     gpu::Buffer materials;
     gpu::Buffer lights;
     gpu::Buffer emitting; // triangles of area lights
+    gpu::Buffer paints, textures, atlas;
+    gpu::Buffer corner_coordinates, corner_colors;
+
+    // All that kernels which follow rays may ask for, and more.
+    std::vector<gpu::Binding> bind(std::initializer_list<gpu::Binding> others) const;
 };
 
 SceneBuffers upload_scene(gpu::Device& device, const Scene& scene);
 
 // Defines for kernels that draw from lights: the kinds there are besides point lights.
 std::vector<std::string> list_light_defines(const Scene& scene);
+
+// Defines for kernels that only ask whether rays pass.
+std::vector<std::string> list_passing_defines(const Scene& scene);
 
 // Defines for kernels that follow rays: only what the scene contains is compiled in.
 std::vector<std::string> list_scene_defines(const Scene& scene);

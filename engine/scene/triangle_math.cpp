@@ -42,7 +42,10 @@ std::optional<glm::dvec3> normalize_robustly(const glm::dvec3& v) {
     if (!(largest > 0.0) || !std::isfinite(largest))
         return std::nullopt;
     const glm::dvec3 scaled = v * find_scale(largest);
-    return scaled / std::sqrt(glm::dot(scaled, scaled));
+    const double length = std::sqrt(glm::dot(scaled, scaled));
+    if (!std::isfinite(length)) // NaN beside a component that is none
+        return std::nullopt;
+    return scaled / length;
 }
 
 NormalTransform::NormalTransform(const glm::dmat3& linear) {

@@ -25,19 +25,12 @@ std::uint32_t interleave_bits(std::uint32_t u, std::uint32_t v) {
     return spread(u >> 16) << 1 | spread(v >> 16);
 }
 
-bool has_mixed_receiver(const Scene& scene) {
-    return std::any_of(scene.materials.begin(), scene.materials.end(), [](const shared::Material& m) {
-        const float diffuse = (1 - m.base_color_metallic.w) * (1 - m.emission_transmission.w);
-        return diffuse > 0 && diffuse < 1;
-    });
-}
-
 } // namespace
 
 std::uint32_t count_slots(const Scene& scene, const TraceSettings& settings) {
     if (settings.paths)
         return settings.max_bounces + 2; // the emitter, the interactions, the storage point
-    if (settings.store == Store::caustic && !has_mixed_receiver(scene))
+    if (settings.store == Store::caustic && !scene.report.has_mixed_receiver)
         return 1; // the first diffuse surface ends the path
     return settings.max_bounces + 1;
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Plots stored photons as points: each adds its flux, in units of the mean photon's, to the pixel that sees it.
-// Inputs: scene, position_emitter, power_object. Output: plot (three fixed-point sums a pixel).
+// Inputs: scene, position_emitter, power_object. Defines: HAS_ALPHA, HAS_TEXTURES, HAS_VERTEX_COLORS. Output: plot (three fixed-point sums a pixel).
 #include "shared/prelude.glsl"
 #include "shared/render.h"
-#include "shared/math.glsl"
-#include "scene/intersect.glsl"
+#include "shared/random.h"
+#include "scene/coverage.glsl"
 #pragma binding texel position_emitter
 #pragma binding texel power_object
 #pragma binding uint plot
@@ -18,7 +18,7 @@ bool is_visible(vec3 eye, vec3 to_photon) {
     float largest = max(abs(to_photon.x), max(abs(to_photon.y), abs(to_photon.z)));
     float distance = largest * sqrt(dot(to_photon / largest, to_photon / largest));
     float limit = distance * BEFORE_SURFACE;
-    return intersect_scene(Ray(eye, normalize_safely(to_photon)), limit, true).t >= limit;
+    return pass_scene(Ray(eye, normalize_safely(to_photon)), limit) > 0.5;
 }
 
 // Pixel column or row of a coordinate in (-1, 1) by the axis that reaches to the border; negative: outside.

@@ -83,11 +83,10 @@ struct Tree {
 };
 
 Tree build(Triangles triangles) {
-    std::vector<shared::TriangleNormals> normals;
-    Tree tree;
-    tree.nodes = build_bvh(triangles, normals);
-    tree.triangles = std::move(triangles);
-    return tree;
+    Scene scene;
+    scene.triangles = std::move(triangles);
+    build_bvh(scene);
+    return {std::move(scene.triangles), std::move(scene.nodes)};
 }
 
 bool is_inside(const shared::BvhNode& outer, glm::vec3 lo, glm::vec3 hi) {
@@ -259,14 +258,21 @@ TEST(bvh, the_same_triangles_give_the_same_tree_at_every_power_of_two) {
     }
 }
 
-TEST(bvh, normals_move_with_their_triangles) {
-    Triangles triangles = make_random(500, 0.1f, 5);
-    std::vector<shared::TriangleNormals> normals(500);
+TEST(bvh, what_corners_hold_moves_with_their_triangles) {
+    Scene scene;
+    scene.triangles = make_random(500, 0.1f, 5);
+    scene.normals.resize(500);
+    scene.corner_coordinates.resize(500);
+    scene.corner_colors.resize(500);
     for (std::uint32_t i = 0; i < 500; ++i)
-        normals[i].n0.x = float(i);
-    build_bvh(triangles, normals);
-    for (std::size_t i = 0; i < 500; ++i)
-        EXPECT_EQ(normals[i].n0.x, float(get_id(triangles[i])));
+        scene.normals[i].n0.x = scene.corner_coordinates[i].c2.y = scene.corner_colors[i].c1.w = float(i);
+    build_bvh(scene);
+    for (std::size_t i = 0; i < 500; ++i) {
+        const auto id = float(get_id(scene.triangles[i]));
+        EXPECT_EQ(scene.normals[i].n0.x, id);
+        EXPECT_EQ(scene.corner_coordinates[i].c2.y, id);
+        EXPECT_EQ(scene.corner_colors[i].c1.w, id);
+    }
 }
 
 TEST(bvh, a_million_triangles_build_within_the_deadline) {

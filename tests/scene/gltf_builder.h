@@ -25,6 +25,12 @@ public:
 
     // Each returns the new accessor's index.
     std::size_t add_vectors(const Vectors& vectors);
+    // Elements of any kind, as the bytes of `numbers`.
+    template <class Number>
+    std::size_t add_numbers(const std::vector<Number>& numbers, std::size_t count, const char* type, int component) {
+        return add_accessor({reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)}, count,
+                            type, component);
+    }
     template <class Index>
     std::size_t add_indices(const std::vector<Index>& indices) {
         const int type = sizeof(Index) == 1 ? 5121 : sizeof(Index) == 2 ? 5123 : 5125;

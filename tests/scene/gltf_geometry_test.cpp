@@ -48,14 +48,8 @@ TEST(gltf_geometry, an_accessor_beyond_its_view_is_refused) {
     EXPECT_CONTAINS(refuse_edit("/accessors/0/count", 0), "count is 0");
 }
 
-TEST(gltf_geometry, strides_that_are_short_odd_or_long_are_refused) {
+TEST(gltf_geometry, strides_shorter_than_an_element_are_refused) {
     EXPECT_CONTAINS(refuse_edit("/bufferViews/0/byteStride", 8), "shorter than an element");
-    EXPECT_CONTAINS(refuse_edit("/bufferViews/0/byteStride", 14), "no multiple of 4");
-    EXPECT_CONTAINS(refuse_edit("/bufferViews/0/byteStride", 256), "more than the 252");
-}
-
-TEST(gltf_geometry, unaligned_elements_are_refused) {
-    EXPECT_CONTAINS(refuse_edit("/bufferViews/0/byteOffset", 2), "not aligned");
 }
 
 TEST(gltf_geometry, unknown_component_types_and_element_types_are_refused) {
@@ -63,20 +57,10 @@ TEST(gltf_geometry, unknown_component_types_and_element_types_are_refused) {
     EXPECT_CONTAINS(refuse_edit("/accessors/0/type", "VEC5"), "type \"VEC5\"");
 }
 
-TEST(gltf_geometry, quantized_positions_are_refused) {
-    EXPECT_CONTAINS(refuse_edit("/accessors/0/componentType", 5123), "KHR_mesh_quantization");
-}
-
-TEST(gltf_geometry, sparse_accessors_in_use_are_refused_by_name) {
-    const Json sparse{
-        {"count", 1}, {"indices", {{"bufferView", 1}, {"componentType", 5123}}}, {"values", {{"bufferView", 0}}}};
-    EXPECT_CONTAINS(refuse_edit("/accessors/0/sparse", sparse), "/accessors/0: sparse accessors are not supported");
-}
-
-TEST(gltf_geometry, an_accessor_in_use_without_a_view_is_refused) {
-    GltfBuilder builder = make_triangle();
-    builder.document["accessors"][0].erase("bufferView");
-    EXPECT_CONTAINS(find_refusal(builder), "it has no bufferView");
+TEST(gltf_geometry, attributes_of_other_kinds_are_refused) {
+    EXPECT_CONTAINS(refuse_edit("/accessors/0/componentType", 5125),
+                    "/accessors/0: POSITION must be VEC3 of floats or of integers of 8 or 16 bits");
+    EXPECT_CONTAINS(refuse_edit("/accessors/0/type", "VEC2"), "this is VEC2 of type 5126");
 }
 
 TEST(gltf_geometry, an_index_beyond_the_vertices_is_refused) {
@@ -103,20 +87,17 @@ TEST(gltf_geometry, coordinates_that_are_not_finite_are_refused_by_accessor) {
     GltfBuilder builder;
     builder.add_triangles({{0, 0, 0}, {1, std::numeric_limits<float>::quiet_NaN(), 0}, {0, 1, 0}});
     EXPECT_CONTAINS(find_refusal(builder), "/accessors/0: POSITION 1 is not finite in component 1");
-    GltfBuilder other;
-    const std::size_t positions = other.add_vectors(RIGHT_TRIANGLE);
-    const std::size_t normals =
-        other.add_vectors({{0, 0, 1}, {0, 0, 1}, {0, 0, std::numeric_limits<float>::infinity()}});
-    other.add_object({{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}}});
-    EXPECT_CONTAINS(find_refusal(other), "/accessors/1: NORMAL 2 is not finite in component 2");
 }
 
-TEST(gltf_geometry, normals_and_positions_of_different_number_are_refused) {
+TEST(gltf_geometry, attributes_and_positions_of_different_number_are_refused) {
     GltfBuilder builder;
     const std::size_t positions = builder.add_vectors(RIGHT_TRIANGLE);
     const std::size_t normals = builder.add_vectors({{0, 0, 1}, {0, 0, 1}});
     builder.add_object({{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}}});
-    EXPECT_CONTAINS(find_refusal(builder), "3 positions but 2 normals");
+    EXPECT_CONTAINS(find_refusal(builder), "3 positions but 2 of NORMAL");
+    builder.document["meshes"][0]["primitives"][0]["attributes"] = {{"POSITION", positions}, {"TEXCOORD_0", 1}};
+    builder.document["accessors"][1]["type"] = "VEC2";
+    EXPECT_CONTAINS(find_refusal(builder), "3 positions but 2 of TEXCOORD_0");
 }
 
 TEST(gltf_geometry, vertices_that_make_no_whole_triangles_are_refused) {

@@ -31,7 +31,7 @@ Scene make_scene(const std::vector<Corners>& triangles) {
     for (const Corners& corners : triangles)
         scene.triangles.push_back({{corners[0], 0.0f}, {corners[1], 0.0f}, {corners[2], 0.0f}});
     scene.normals.resize(triangles.size());
-    scene.nodes = build_bvh(scene.triangles, scene.normals);
+    build_bvh(scene);
     scene.materials.resize(1);
     return scene;
 }

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// One copy of each image, whoever uses it; a texture is an image with its sampler, transform and coordinates.
+#include "scene/load_textures.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/json_place.h"
+#include "image/decode_image.h"
+#include "scene/limits.h"
+
+namespace photonloupe {
+namespace {
+
+// IEC 61966-2-1, of the 256 codes.
+std::vector<std::uint32_t> make_srgb_table() {
+    std::vector<std::uint32_t> table;
+    for (std::uint32_t code = 0; code < shared::ATLAS_TABLE_SIZE; ++code) {
+        const double encoded = code / 255.0;
+        const double linear = encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+        table.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(linear)));
+    }
+    return table;
+}
+
+std::uint32_t get_code(std::uint32_t texel, int channel) {
+    return texel >> (8 * channel) & 0xffu;
+}
+
+// Each texel the mean of up to four, as its codes stand.
+RgbaImage halve(const RgbaImage& image) {
+    RgbaImage half{(image.width + 1) / 2, (image.height + 1) / 2, {}};
+    half.texels.reserve(std::size_t{half.width} * half.height);
+    for (std::uint32_t row = 0; row < half.height; ++row)
+        for (std::uint32_t column = 0; column < half.width; ++column) {
+            std::uint32_t texel = 0;
+            for (int channel = 0; channel < 4; ++channel) {
+                std::uint32_t sum = 2;
+                for (std::uint32_t corner = 0; corner < 4; ++corner) {
+                    const std::uint32_t x = std::min(2 * column + corner % 2, image.width - 1);
+                    const std::uint32_t y = std::min(2 * row + corner / 2, image.height - 1);
+                    sum += get_code(image.texels[std::size_t{y} * image.width + x], channel);
+                }
+                texel |= sum / 4 << (8 * channel);
+            }
+            half.texels.push_back(texel);
+        }
+    return half;
+}
+
+std::uint64_t count_texels(const std::vector<RgbaImage>& images) {
+    std::uint64_t count = 0;
+    for (const RgbaImage& image : images)
+        count += image.texels.size();
+    return count;
+}
+
+// Images by index; empty ones are not there.
+std::vector<RgbaImage> decode_images(std::vector<ImageFile> files, Scene& scene) {
+    std::vector<RgbaImage> images(files.size());
+    std::size_t halved = 0;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        ImageFile& file = files[i];
+        try {
+            if (!file.bytes.empty())
+                images[i] = decode_image(file.bytes);
+        } catch (const Error& error) {
+            file.problem = error.what();
+        }
+        file.bytes = {};
+        if (!file.problem.empty())
+            scene.report.ignored.push_back("image " + quote_text(file.name) + ": " + file.problem +
+                                           "; its surfaces keep their factors");
+        while (count_texels(images) > MAX_TEXELS) {
+            auto largest = std::max_element(images.begin(), images.end(), [](const auto& a, const auto& b) {
+                return a.texels.size() < b.texels.size();
+            });
+            *largest = halve(*largest);
+            ++halved;
+        }
+    }
+    if (halved > 0)
+        scene.report.notes.push_back("textures were halved " + std::to_string(halved) + " times to fit into " +
+                                     std::to_string(MAX_TEXELS) + " texels");
+    return images;
+}
+
+bool is_srgb(TextureSlot slot) {
+    return slot == TextureSlot::base_color || slot == TextureSlot::emission;
+}
+
+shared::Texture make_texture(const TextureUse& use, TextureSlot slot, const RgbaImage& image, std::size_t first) {
+    std::uint32_t bits = 0;
+    const auto set = [&](bool condition, std::uint32_t bit) { bits |= condition ? bit : 0; };
+    set(use.is_nearest, shared::TEXTURE_NEAREST);
+    set(use.coordinates == 1, shared::TEXTURE_SECOND_COORDINATES);
+    set(is_srgb(slot), shared::TEXTURE_SRGB);
+    set(use.wrap_u == TextureWrap::clamp, shared::TEXTURE_CLAMP_U);
+    set(use.wrap_u == TextureWrap::mirror, shared::TEXTURE_MIRROR_U);
+    set(use.wrap_v == TextureWrap::clamp, shared::TEXTURE_CLAMP_V);
+    set(use.wrap_v == TextureWrap::mirror, shared::TEXTURE_MIRROR_V);
+    const auto& t = use.transform;
+    return {{static_cast<std::uint32_t>(first), image.width, image.height, bits},
+            {t[0], t[1], t[2], 0.0f},
+            {t[3], t[4], t[5], 0.0f}};
+}
+
+float& get_number(shared::MaterialPaint& paint, TextureSlot slot) {
+    return slot == TextureSlot::transmission ? paint.others.x : paint.colors[static_cast<int>(slot)];
+}
+
+} // namespace
+
+void load_textures(std::vector<MaterialTextures> materials, std::vector<ImageFile> files, Scene& scene) {
+    const std::vector<RgbaImage> images = decode_images(std::move(files), scene);
+    if (count_texels(images) == 0)
+        return;
+    scene.atlas = make_srgb_table();
+    std::vector<std::size_t> first(images.size());
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        first[i] = scene.atlas.size();
+        scene.atlas.insert(scene.atlas.end(), images[i].texels.begin(), images[i].texels.end());
+    }
+    for (const MaterialTextures& slots : materials) {
+        shared::MaterialPaint paint{};
+        paint.others.y = 1.0f;
+        for (std::size_t i = 0; i < TEXTURE_SLOT_COUNT; ++i) {
+            if (!slots[i] || images[slots[i]->image].texels.empty())
+                continue;
+            const auto slot = static_cast<TextureSlot>(i);
+            const TextureUse& use = *slots[i];
+            scene.textures.push_back(make_texture(use, slot, images[use.image], first[use.image]));
+            get_number(paint, slot) = static_cast<float>(scene.textures.size());
+            if (slot == TextureSlot::normal)
+                paint.others.y = static_cast<float>(use.scale);
+        }
+        scene.paints.push_back(paint);
+    }
+}
+
+TextureRange find_texture_range(const Scene& scene, float number) {
+    TextureRange range;
+    if (number == 0)
+        return range;
+    const shared::Texture& texture = scene.textures[static_cast<std::size_t>(number) - 1];
+    std::array<std::uint32_t, 4> least{255, 255, 255, 255}, most{};
+    const std::size_t count = std::size_t{texture.place.y} * texture.place.z;
+    for (std::size_t i = 0; i < count; ++i)
+        for (int channel = 0; channel < 4; ++channel) {
+            const std::uint32_t code = get_code(scene.atlas[texture.place.x + i], channel);
+            least[std::size_t(channel)] = std::min(least[std::size_t(channel)], code);
+            most[std::size_t(channel)] = std::max(most[std::size_t(channel)], code);
+        }
+    const auto decode = [&](std::uint32_t code, int channel) {
+        return channel < 3 && texture.place.w & shared::TEXTURE_SRGB ? std::bit_cast<float>(scene.atlas[code])
+                                                                     : static_cast<float>(code) / 255.0f;
+    };
+    for (int channel = 0; channel < 4; ++channel) {
+        range.least[std::size_t(channel)] = decode(least[std::size_t(channel)], channel);
+        range.most[std::size_t(channel)] = decode(most[std::size_t(channel)], channel);
+    }
+    return range;
+}
+
+} // namespace photonloupe

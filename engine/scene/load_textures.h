@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decodes the images that materials use into one atlas of texels.
+#pragma once
+
+#include "scene/gltf_textures.h"
+#include "scene/scene.h"
+
+namespace photonloupe {
+
+// Fills the scene's atlas and textures, and for each material its paint. Images that can't be decoded are listed among what is
+// ignored, and their surfaces keep their factors; too many texels are halved, with a note.
+void load_textures(std::vector<MaterialTextures> materials, std::vector<ImageFile> images, Scene& scene);
+
+// What a texture makes of a factor of 1, least and most, by channel.
+struct TextureRange {
+    std::array<float, 4> least{1, 1, 1, 1};
+    std::array<float, 4> most{1, 1, 1, 1};
+};
+
+// Of a texture's number in a paint; 0: no texture.
+TextureRange find_texture_range(const Scene& scene, float number);
+
+} // namespace photonloupe
