@@ -149,6 +149,9 @@ class GltfWriter:
     lights: list[dict[str, Any]] = field(default_factory=list)
     accessors: list[dict[str, Any]] = field(default_factory=list)
     views: list[dict[str, Any]] = field(default_factory=list)
+    images: list[dict[str, Any]] = field(default_factory=list)
+    samplers: list[dict[str, Any]] = field(default_factory=list)
+    textures: list[dict[str, Any]] = field(default_factory=list)
     buffer: bytearray = field(default_factory=bytearray)
 
     def _add_accessor(self, values: NDArray[Any], component: int, kind: str, target: int) -> int:
@@ -168,14 +171,37 @@ class GltfWriter:
         self.accessors.append(accessor)
         return len(self.accessors) - 1
 
-    def add_mesh(self, name: str, mesh: Mesh, material: dict[str, Any]) -> None:
-        """Adds `mesh` as a node of its own, drawn with `material`."""
+    def add_texture(self, image: bytes, **sampler: int) -> int:
+        """Adds an encoded image with its glTF `sampler` members, such as wrapS; returns the texture's index."""
+        view = {"buffer": 0, "byteOffset": len(self.buffer), "byteLength": len(image)}
+        self.views.append(view)
+        self.buffer += image + b"\0" * (-len(image) % 4)
+        mime = "image/png" if image.startswith(b"\x89PNG") else "image/jpeg"
+        self.images.append({"bufferView": len(self.views) - 1, "mimeType": mime})
+        self.samplers.append(sampler)
+        self.textures.append({"source": len(self.images) - 1, "sampler": len(self.samplers) - 1})
+        return len(self.textures) - 1
+
+    def add_mesh(
+        self,
+        name: str,
+        mesh: Mesh,
+        material: dict[str, Any],
+        *,
+        coordinates: list[NDArray[np.float64]] | None = None,
+        colors: NDArray[np.float64] | None = None,
+    ) -> None:
+        """Adds `mesh` as a node of its own, drawn with `material`; texture coordinates (n, 2) by set, colors (n, 4)."""
         wide = len(mesh.positions) > 0xFFFF
         index_type: tuple[str, int] = ("<u4", _UINT32) if wide else ("<u2", _UINT16)
         attributes = {
             "POSITION": self._add_accessor(mesh.positions.astype("<f4"), _FLOAT, "VEC3", _VERTEX_BUFFER),
             "NORMAL": self._add_accessor(mesh.normals.astype("<f4"), _FLOAT, "VEC3", _VERTEX_BUFFER),
         }
+        for i, values in enumerate(coordinates or []):
+            attributes[f"TEXCOORD_{i}"] = self._add_accessor(values.astype("<f4"), _FLOAT, "VEC2", _VERTEX_BUFFER)
+        if colors is not None:
+            attributes["COLOR_0"] = self._add_accessor(colors.astype("<f4"), _FLOAT, "VEC4", _VERTEX_BUFFER)
         indices = self._add_accessor(mesh.indices.astype(index_type[0]).ravel(), index_type[1], "SCALAR", _INDEX_BUFFER)
         self.materials.append(material)
         primitive = {"attributes": attributes, "indices": indices, "material": len(self.materials) - 1}
@@ -219,6 +245,7 @@ class GltfWriter:
     def build_document(self) -> dict[str, Any]:
         """The glTF document as plain values."""
         used = {"KHR_lights_punctual"} | {e for m in self.materials for e in m.get("extensions", {})}
+        optional = {"images": self.images, "samplers": self.samplers, "textures": self.textures}
         return {
             "asset": {"version": "2.0", "generator": "Photon Loupe scenes/generate.py"},
             "extensionsUsed": sorted(used),
@@ -229,6 +256,7 @@ class GltfWriter:
             "meshes": self.meshes,
             "materials": self.materials,
             "cameras": self.cameras,
+            **{name: entries for name, entries in optional.items() if entries},
             "accessors": self.accessors,
             "bufferViews": self.views,
             "buffers": [{"uri": f"{self.name}.bin", "byteLength": len(self.buffer)}],

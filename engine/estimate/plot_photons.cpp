@@ -31,11 +31,11 @@ Image plot_photons(gpu::Device& device, const Scene& scene, const SceneBuffers& 
     gpu::fill(device, "plot photons", plot, 0);
     const double mean = find_mean_flux(photons);
     shared::PlotSettings push{camera, 0, 0, width, height, mean > 0 ? static_cast<float>(1 / mean) : 0.0f};
-    gpu::dispatch_in_chunks(device, "plot photons", name_plot_kernel(scene),
-                            buffers.bind({{"position_emitter", photons.position_emitter},
-                                          {"power_object", photons.power_object},
-                                          {"plot", plot}}),
-                            push, photons.count, 4096, progress);
+    gpu::dispatch_in_chunks(
+        device, "plot photons", name_plot_kernel(scene),
+        buffers.bind(
+            {{"position_emitter", photons.position_emitter}, {"power_object", photons.power_object}, {"plot", plot}}),
+        push, photons.count, 4096, progress);
     Image image{width, height, {}, {}};
     for (std::uint32_t value : plot.read<std::uint32_t>(values))
         image.rgb.push_back(static_cast<float>(value) / shared::PLOT_UNIT);

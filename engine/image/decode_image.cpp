@@ -38,6 +38,8 @@ RgbaImage decode_jpeg(std::span<const unsigned char> bytes) {
     const auto size = static_cast<unsigned long>(bytes.size());
     if (tjDecompressHeader3(decoder.get(), bytes.data(), size, &width, &height, &subsampling, &color_space) != 0)
         refuse();
+    if (width <= 0 || height <= 0)
+        throw Error("it is no readable JPEG: its header gives no size");
     RgbaImage image;
     allocate(image, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height));
     // A warning, such as a few bytes too many, leaves a picture.

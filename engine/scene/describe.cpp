@@ -136,7 +136,10 @@ SceneFeatures list_features(const Scene& scene) {
                                                      {report.has_dielectric, "dielectrics"},
                                                      {report.has_rough, "roughness"},
                                                      {report.has_absorption, "absorption"},
-                                                     {report.has_thin, "thin glass"}, {!scene.textures.empty(), "textures"}, {!scene.corner_colors.empty(), "vertex colors"}, {report.has_alpha, "alpha"},
+                                                     {report.has_thin, "thin glass"},
+                                                     {!scene.textures.empty(), "textures"},
+                                                     {!scene.corner_colors.empty(), "vertex colors"},
+                                                     {report.has_alpha, "alpha"},
                                                      {report.has_emission, "emission seen by cameras"}};
     SceneFeatures result;
     for (const auto& [present, name] : features)

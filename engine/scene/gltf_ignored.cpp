@@ -14,10 +14,14 @@
 namespace photonloupe {
 namespace {
 
-constexpr std::array<std::string_view, 8> KNOWN_EXTENSIONS{
-    "KHR_lights_punctual",   "KHR_materials_transmission",      "KHR_materials_volume",
-    "KHR_materials_ior",     "KHR_materials_emissive_strength", "KHR_mesh_quantization",
-    "KHR_texture_transform", "EXT_texture_webp"};
+constexpr std::array<std::string_view, 8> KNOWN_EXTENSIONS{"KHR_lights_punctual",
+                                                           "KHR_materials_transmission",
+                                                           "KHR_materials_volume",
+                                                           "KHR_materials_ior",
+                                                           "KHR_materials_emissive_strength",
+                                                           "KHR_mesh_quantization",
+                                                           "KHR_texture_transform",
+                                                           "EXT_texture_webp"};
 
 // Members that are listed wherever they stand; the text is what the user reads.
 const std::map<std::string_view, const char*>& get_member_features() {

@@ -59,8 +59,7 @@ TextureWrap read_wrap(const JsonPlace& sampler, const char* member) {
 
 void read_sampler(const JsonPlace& root, const JsonPlace& texture, TextureUse& use) {
     const JsonPlace samplers = find_member(root, "samplers");
-    const auto index =
-        read_index(find_member(texture, "sampler"), count_elements(samplers, MAX_ENTRIES), "sampler");
+    const auto index = read_index(find_member(texture, "sampler"), count_elements(samplers, MAX_ENTRIES), "sampler");
     if (!index)
         return;
     const JsonPlace sampler = get_element(samplers, *index);
@@ -79,14 +78,15 @@ void read_transform(const JsonPlace& reference, TextureUse& use) {
     const double angle = read_number_or(find_member(transform, "rotation"), 0.0, FINITE);
     const double c = std::cos(angle), s = std::sin(angle);
     use.transform = {c * scale.at(0), s * scale.at(1), offset.at(0), -s * scale.at(0), c * scale.at(1), offset.at(1)};
-    use.coordinates = static_cast<std::uint32_t>(
-        read_unsigned_or(find_member(transform, "texCoord"), MAX_ENTRIES, use.coordinates));
+    use.coordinates =
+        static_cast<std::uint32_t>(read_unsigned_or(find_member(transform, "texCoord"), MAX_ENTRIES, use.coordinates));
 }
 
 // The image of a format that is read; a texture may name one of another format besides.
 std::optional<std::uint32_t> find_image(const JsonPlace& root, const JsonPlace& texture) {
     const std::size_t count = count_elements(find_member(root, "images"), MAX_IMAGES);
-    if (const auto webp = read_index(find_member(find_extension(texture, "EXT_texture_webp"), "source"), count, "image"))
+    if (const auto webp =
+            read_index(find_member(find_extension(texture, "EXT_texture_webp"), "source"), count, "image"))
         return webp;
     return read_index(find_member(texture, "source"), count, "image");
 }

@@ -176,8 +176,7 @@ void load_materials(const tinygltf::Model& model, Scene& scene) {
         if (used[i]) {
             const shared::Material least = fold_textures(scene, i);
             simplify_alpha(scene.materials[i], least.alpha.x * vertex_alpha);
-            report_material(scene.materials[i], least, "material " + quote_text(scene.material_names[i]),
-                            scene.report);
+            report_material(scene.materials[i], least, "material " + quote_text(scene.material_names[i]), scene.report);
         }
 }
 

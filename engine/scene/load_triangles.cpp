@@ -204,9 +204,8 @@ bool has_colors(const std::vector<PlacedPrimitive>& primitives) {
 // Colors that change nothing would only cost time.
 void drop_white(std::vector<shared::CornerColors>& colors) {
     const glm::vec4 white(1.0f);
-    if (std::all_of(colors.begin(), colors.end(), [&](const shared::CornerColors& c) {
-            return c.c0 == white && c.c1 == white && c.c2 == white;
-        }))
+    if (std::all_of(colors.begin(), colors.end(),
+                    [&](const shared::CornerColors& c) { return c.c0 == white && c.c1 == white && c.c2 == white; }))
         colors = {};
 }
 

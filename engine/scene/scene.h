@@ -60,7 +60,7 @@ struct Scene {
     std::vector<shared::TriangleNormals> normals;
     std::vector<shared::CornerCoordinates> corner_coordinates; // by triangle; empty without textures
     std::vector<shared::CornerColors> corner_colors;           // by triangle; empty where all are white
-    std::vector<shared::BvhNode> nodes; // nodes[0] is the root; empty without triangles
+    std::vector<shared::BvhNode> nodes;                        // nodes[0] is the root; empty without triangles
     std::vector<shared::Material> materials;
     std::vector<std::string> material_names;
     std::vector<shared::MaterialPaint> paints; // of the materials; empty without textures

@@ -18,7 +18,9 @@ const std::vector<std::string> PATHS{"", "RECORD_PATHS"};
 const std::vector<std::string> MIRROR{"", "HAS_MIRROR"};
 const std::vector<std::string> DIELECTRIC{"", "HAS_DIELECTRIC"};
 const std::vector<std::string> ABSORPTION{"", "HAS_ABSORPTION"};
-const std::vector<std::string> MATTER{"", "HAS_ROUGH"};
+const std::vector<std::string> PAINT{"", "HAS_TEXTURES", "HAS_VERTEX_COLORS",
+                                     "HAS_TEXTURES\n#define HAS_VERTEX_COLORS\n#define HAS_ALPHA"},
+    MATTER{"", "HAS_ROUGH", "HAS_ROUGH\n#define HAS_TEXTURES\n#define HAS_VERTEX_COLORS\n#define HAS_ALPHA"};
 const std::vector<std::string> SPOT{"", "HAS_SPOT_LIGHTS"}, DIRECTIONAL{"", "HAS_DIRECTIONAL_LIGHTS"},
     AREA{"", "HAS_AREA_LIGHTS"}, ENVIRONMENT{"", "HAS_ENVIRONMENT"};
 const std::vector<std::string> OTHER_LIGHTS{"", "HAS_SPOT_LIGHTS\n#define HAS_DIRECTIONAL_LIGHTS\n#define "
@@ -54,8 +56,10 @@ const std::vector<std::string> DESCRIPTORS{"DESCRIPTOR 1", "DESCRIPTOR 2", "DESC
 // Kernels that are not named here take no defines.
 const std::map<std::string, Factors> FACTORS{
     {"estimate/estimate_irradiance.comp", {KERNELS, {SURFACE[2]}, {"", "ONE_NORMAL"}, {TIES[1]}, SINGLY}},
-    {"estimate/light_direct.comp", {SPOT, DIRECTIONAL, AREA, ENVIRONMENT}},
+    {"estimate/light_direct.comp", {SPOT, DIRECTIONAL, AREA, ENVIRONMENT, PAINT}},
     {"estimate/trace_eye.comp", {MIRROR, DIELECTRIC, ABSORPTION, MATTER, OTHER_LIGHTS}},
+    {"estimate/plot_photons.comp", {PAINT}},
+    {"inspect/see_surfaces.comp", {PAINT}},
     {"inspect/count_crossings.comp", {{"", "RAGGED"}}},
     {"photons/choose_brackets.comp", {RANGES}},
     {"photons/count_lefts.comp", {RANGES}},
