@@ -36,11 +36,12 @@ public:
     template <class Push>
     void dispatch(const KernelSource& kernel, const std::vector<Binding>& bindings, const Push& push,
                   std::uint64_t invocations) {
+        static_assert(!std::is_convertible_v<Push, std::span<const std::byte>>);
         record_dispatch(kernel, bindings, &push, sizeof(Push), invocations);
     }
-    // The same where neither is known before the run: push constants as bytes.
-    void dispatch(const KernelSource& kernel, std::span<const Binding> bindings, std::span<const std::byte> push,
-                  std::uint64_t invocations) {
+    // The same with push constants of a type that is not known before the run.
+    void dispatch_bytes(const KernelSource& kernel, std::span<const Binding> bindings, std::span<const std::byte> push,
+                        std::uint64_t invocations) {
         record_dispatch(kernel, bindings, push.data(), static_cast<std::uint32_t>(push.size()), invocations);
     }
     void copy(const Buffer& source, std::uint64_t source_offset, const Buffer& target, std::uint64_t target_offset,

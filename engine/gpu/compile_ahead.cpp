@@ -48,7 +48,7 @@ void dispatch_nothing(Device& device, const KernelSource& source) {
         bindings.push_back({declared.name, stand_in});
     Commands commands(device, "compile ahead");
     const std::byte push{};
-    commands.dispatch(source, bindings, std::span(&push, 1), 0);
+    commands.dispatch_bytes(source, bindings, std::span(&push, 1), 0);
     commands.run();
 }
 

@@ -58,9 +58,9 @@ struct Lists {
                                                                    static_cast<std::uint32_t>(size),
                                                                    static_cast<std::uint32_t>(first), k};
                                const auto push = std::as_bytes(std::span(&settings, 1));
-                               commands.dispatch(kernels[0], bindings, push, size * count_runs(k));
+                               commands.dispatch_bytes(kernels[0], bindings, push, size * count_runs(k));
                                if (kernels.size() > 1)
-                                   commands.dispatch(kernels[1], bindings, push, size);
+                                   commands.dispatch_bytes(kernels[1], bindings, push, size);
                            });
     }
 };

@@ -1,25 +1,147 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gathers emitting triangles by object, with the shares of their areas.
+// Gathers emitting triangles by object, with the shares of their power.
 #include "scene/emitting_objects.h"
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "scene/load_textures.h"
 #include "scene/triangle_math.h"
 
 namespace photonloupe {
 namespace {
 
-double find_area(const shared::Triangle& triangle) {
-    return 0.5 * glm::length(compute_area_vector(triangle.v0_object, triangle.v1_material, triangle.v2_source));
-}
+// A textured lamp's triangles are split until a part is about this many texels wide, or there are this many parts.
+constexpr double TEXELS_OF_A_PART = 2.0;
+constexpr std::size_t MOST_PARTS = 1u << 16;
+constexpr int MOST_LEVELS = 8;
+// A part's radiance is the mean of the texture at the middles of this many triangles, a power of 4.
+constexpr int SAMPLE_LEVELS = 2;
+
+using Corners = std::array<glm::dvec3, 3>; // weights of a triangle's own corners
 
 bool emits(const shared::Material& material) {
     const glm::vec4& emission = material.emission_transmission;
     return std::max({emission.x, emission.y, emission.z}) > 0;
 }
+
+// Into 4^levels equal parts.
+template <class Use>
+void split(const Corners& corners, int levels, const Use& use) {
+    if (levels == 0)
+        return use(corners);
+    const auto& [a, b, c] = corners;
+    const glm::dvec3 ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
+    for (const Corners& part : {Corners{a, ab, ca}, Corners{ab, b, bc}, Corners{ca, bc, c}, Corners{bc, ca, ab}})
+        split(part, levels - 1, use);
+}
+
+// What one object emits, part by part.
+class Lamp {
+public:
+    Lamp(const Scene& scene, const std::vector<std::uint32_t>& triangles)
+        : m_scene(scene), m_material_index(find_material(scene.triangles[triangles.front()])),
+          m_material(scene.materials[m_material_index]),
+          m_texture(scene.paints.empty() ? 0.0f : scene.paints[m_material_index].colors.w) {
+        for (const std::uint32_t triangle : triangles)
+            split({glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)},
+                  choose_levels(triangle, triangles.size()),
+                  [&](const Corners& part) { add_part(triangle, part); });
+    }
+
+    // The light, and its triangles appended to the scene's; nothing if it is dark everywhere.
+    bool finish(Scene& scene) const {
+        if (!(m_weight > 0))
+            return false;
+        const auto first = static_cast<std::uint32_t>(scene.emitting.size());
+        double before = 0;
+        for (const Part& part : m_parts) {
+            before += part.weight;
+            scene.emitting.push_back({{part.corners[0], static_cast<float>(before / m_weight)},
+                                      {part.corners[1], 0.0f},
+                                      {part.corners[2], 0.0f}});
+        }
+        scene.emitting.back().v0_cumulative.w = 1.0f;
+        const auto count = static_cast<std::uint32_t>(m_parts.size());
+        const float sides = is_two_sided(m_material) ? 2.0f : 1.0f;
+        scene.lights.push_back(
+            {{glm::vec3(m_center / m_weight), std::bit_cast<float>(shared::LIGHT_AREA)},
+             {glm::vec3(m_power / m_area), 0.0f},
+             {0.0f, 0.0f, 0.0f, 0.0f},
+             {static_cast<float>(m_area), std::bit_cast<float>(first), std::bit_cast<float>(count), sides}});
+        return true;
+    }
+
+private:
+    struct Part {
+        std::array<glm::vec3, 3> corners;
+        double weight; // area times the largest channel of its radiance
+    };
+
+    // How often a triangle is split in four: as far as its texture's texels ask for.
+    int choose_levels(std::uint32_t triangle, std::size_t count) const {
+        if (m_texture == 0)
+            return 0;
+        const shared::Texture& texture = m_scene.textures[static_cast<std::size_t>(m_texture) - 1];
+        const shared::CornerCoordinates& corners = m_scene.corner_coordinates[triangle];
+        const glm::vec4 span = glm::max(glm::abs(corners.c1 - corners.c0), glm::abs(corners.c2 - corners.c0));
+        const bool is_second = texture.place.w & shared::TEXTURE_SECOND_COORDINATES;
+        const glm::vec2 uv = is_second ? glm::vec2(span.z, span.w) : glm::vec2(span.x, span.y);
+        const double texels =
+            std::max((std::abs(texture.to_u.x) * uv.x + std::abs(texture.to_u.y) * uv.y) * texture.place.y,
+                     (std::abs(texture.to_v.x) * uv.x + std::abs(texture.to_v.y) * uv.y) * texture.place.z);
+        int levels = 0;
+        while (levels < MOST_LEVELS && texels / std::exp2(levels) > TEXELS_OF_A_PART &&
+               (count << 2 * (levels + 1)) <= MOST_PARTS)
+            ++levels;
+        return levels;
+    }
+
+    glm::dvec3 find_radiance(std::uint32_t triangle, const Corners& part) const {
+        const glm::dvec3 factor(m_material.emission_transmission);
+        if (m_texture == 0)
+            return factor;
+        glm::dvec4 sum(0.0);
+        int count = 0;
+        split(part, SAMPLE_LEVELS, [&](const Corners& piece) {
+            sum += sample_texture(m_scene, m_texture, triangle, (piece[0] + piece[1] + piece[2]) / 3.0);
+            ++count;
+        });
+        return factor * glm::dvec3(sum) / double(count);
+    }
+
+    void add_part(std::uint32_t index, const Corners& weights) {
+        const shared::Triangle& triangle = m_scene.triangles[index];
+        Part part{};
+        for (std::size_t i = 0; i < 3; ++i)
+            part.corners[i] = glm::vec3(weights[i].x * glm::dvec3(triangle.v0_object) +
+                                        weights[i].y * glm::dvec3(triangle.v1_material) +
+                                        weights[i].z * glm::dvec3(triangle.v2_source));
+        const glm::dvec3 radiance = find_radiance(index, weights);
+        const double area = 0.5 * glm::length(compute_area_vector(part.corners[0], part.corners[1], part.corners[2]));
+        part.weight = area * std::max({radiance.x, radiance.y, radiance.z});
+        m_area += area;
+        m_power += area * radiance;
+        if (!(part.weight > 0))
+            return;
+        m_weight += part.weight;
+        m_center += part.weight / 3.0 *
+                    (glm::dvec3(part.corners[0]) + glm::dvec3(part.corners[1]) + glm::dvec3(part.corners[2]));
+        m_parts.push_back(part);
+    }
+
+    const Scene& m_scene;
+    std::uint32_t m_material_index;
+    const shared::Material& m_material;
+    float m_texture;
+    std::vector<Part> m_parts;
+    double m_area = 0, m_weight = 0;
+    glm::dvec3 m_power{0.0}, m_center{0.0};
+};
 
 } // namespace
 
@@ -30,36 +152,9 @@ void list_emitting_objects(Scene& scene) {
         if (emits(scene.materials[scene.objects[object].material]))
             triangles[object].push_back(i);
     }
-    for (std::size_t object = 0; object < triangles.size(); ++object) {
-        double total = 0, before = 0;
-        for (const std::uint32_t i : triangles[object])
-            total += find_area(scene.triangles[i]);
-        if (!(total > 0))
-            continue;
-        const shared::Material& material = scene.materials[scene.objects[object].material];
-        const auto first = static_cast<std::uint32_t>(scene.emitting.size());
-        glm::dvec3 center(0.0);
-        for (const std::uint32_t i : triangles[object]) {
-            const shared::Triangle& triangle = scene.triangles[i];
-            const double area = find_area(triangle);
-            before += area;
-            center +=
-                (glm::dvec3(triangle.v0_object) + glm::dvec3(triangle.v1_material) + glm::dvec3(triangle.v2_source)) *
-                (area / (3 * total));
-            scene.emitting.push_back({{glm::vec3(triangle.v0_object), static_cast<float>(before / total)},
-                                      {glm::vec3(triangle.v1_material), 0.0f},
-                                      {glm::vec3(triangle.v2_source), 0.0f}});
-        }
-        scene.emitting.back().v0_cumulative.w = 1.0f;
-        const auto count = static_cast<std::uint32_t>(triangles[object].size());
-        const float sides = is_two_sided(material) ? 2.0f : 1.0f;
-        scene.lights.push_back(
-            {{glm::vec3(center), std::bit_cast<float>(shared::LIGHT_AREA)},
-             {glm::vec3(material.emission_transmission), 0.0f},
-             {0.0f, 0.0f, 0.0f, 0.0f},
-             {static_cast<float>(total), std::bit_cast<float>(first), std::bit_cast<float>(count), sides}});
-        scene.light_names.push_back(scene.objects[object].name);
-    }
+    for (std::size_t object = 0; object < triangles.size(); ++object)
+        if (!triangles[object].empty() && Lamp(scene, triangles[object]).finish(scene))
+            scene.light_names.push_back(scene.objects[object].name);
 }
 
 } // namespace photonloupe

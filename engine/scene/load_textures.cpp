@@ -6,6 +6,9 @@
 #include <bit>
 #include <cmath>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
 #include "core/error.h"
 #include "core/json_place.h"
 #include "image/decode_image.h"
@@ -111,6 +114,30 @@ float& get_number(shared::MaterialPaint& paint, TextureSlot slot) {
     return slot == TextureSlot::transmission ? paint.others.x : paint.colors[static_cast<int>(slot)];
 }
 
+std::uint32_t wrap_texel(double at, std::uint32_t size, bool clamps, bool mirrors) {
+    if (clamps)
+        return static_cast<std::uint32_t>(std::clamp(at, 0.0, size - 1.0));
+    const double period = mirrors ? 2.0 * size : size;
+    const auto wrapped = static_cast<std::uint32_t>(std::min(at - period * std::floor(at / period), period - 1));
+    return wrapped < size ? wrapped : 2 * size - 1 - wrapped;
+}
+
+float decode(const Scene& scene, const shared::Texture& texture, std::uint32_t code, int channel) {
+    return channel < 3 && texture.place.w & shared::TEXTURE_SRGB ? std::bit_cast<float>(scene.atlas[code])
+                                                                 : static_cast<float>(code) / 255.0f;
+}
+
+glm::dvec4 load_texel(const Scene& scene, const shared::Texture& texture, double column, double row) {
+    const glm::uvec4& place = texture.place;
+    const std::uint32_t x = wrap_texel(column, place.y, place.w & shared::TEXTURE_CLAMP_U, place.w & shared::TEXTURE_MIRROR_U);
+    const std::uint32_t y = wrap_texel(row, place.z, place.w & shared::TEXTURE_CLAMP_V, place.w & shared::TEXTURE_MIRROR_V);
+    const std::uint32_t codes = scene.atlas[place.x + std::size_t{y} * place.y + x];
+    glm::dvec4 value;
+    for (int channel = 0; channel < 4; ++channel)
+        value[channel] = decode(scene, texture, get_code(codes, channel), channel);
+    return value;
+}
+
 } // namespace
 
 void load_textures(std::vector<MaterialTextures> materials, std::vector<ImageFile> files, Scene& scene) {
@@ -140,6 +167,25 @@ void load_textures(std::vector<MaterialTextures> materials, std::vector<ImageFil
     }
 }
 
+glm::dvec4 sample_texture(const Scene& scene, float number, std::uint32_t triangle, const glm::dvec3& weights) {
+    const shared::Texture& texture = scene.textures[static_cast<std::size_t>(number) - 1];
+    const shared::CornerCoordinates& corners = scene.corner_coordinates[triangle];
+    const glm::dvec4 coordinates =
+        weights.x * glm::dvec4(corners.c0) + weights.y * glm::dvec4(corners.c1) + weights.z * glm::dvec4(corners.c2);
+    const bool is_second = texture.place.w & shared::TEXTURE_SECOND_COORDINATES;
+    const glm::dvec3 uv(is_second ? coordinates.z : coordinates.x, is_second ? coordinates.w : coordinates.y, 1.0);
+    const double x = glm::dot(glm::dvec3(texture.to_u), uv) * texture.place.y;
+    const double y = glm::dot(glm::dvec3(texture.to_v), uv) * texture.place.z;
+    if (texture.place.w & shared::TEXTURE_NEAREST)
+        return load_texel(scene, texture, std::floor(x), std::floor(y));
+    const double column = std::floor(x - 0.5), row = std::floor(y - 0.5);
+    const double right = x - 0.5 - column, down = y - 0.5 - row;
+    const auto blend = [&](double at) {
+        return glm::mix(load_texel(scene, texture, column, at), load_texel(scene, texture, column + 1, at), right);
+    };
+    return glm::mix(blend(row), blend(row + 1), down);
+}
+
 TextureRange find_texture_range(const Scene& scene, float number) {
     TextureRange range;
     if (number == 0)
@@ -153,13 +199,9 @@ TextureRange find_texture_range(const Scene& scene, float number) {
             least[std::size_t(channel)] = std::min(least[std::size_t(channel)], code);
             most[std::size_t(channel)] = std::max(most[std::size_t(channel)], code);
         }
-    const auto decode = [&](std::uint32_t code, int channel) {
-        return channel < 3 && texture.place.w & shared::TEXTURE_SRGB ? std::bit_cast<float>(scene.atlas[code])
-                                                                     : static_cast<float>(code) / 255.0f;
-    };
     for (int channel = 0; channel < 4; ++channel) {
-        range.least[std::size_t(channel)] = decode(least[std::size_t(channel)], channel);
-        range.most[std::size_t(channel)] = decode(most[std::size_t(channel)], channel);
+        range.least[std::size_t(channel)] = decode(scene, texture, least[std::size_t(channel)], channel);
+        range.most[std::size_t(channel)] = decode(scene, texture, most[std::size_t(channel)], channel);
     }
     return range;
 }

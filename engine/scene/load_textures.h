@@ -17,6 +17,9 @@ struct TextureRange {
     std::array<float, 4> most{1, 1, 1, 1};
 };
 
+// A texture at a point of a triangle, by the weights of its corners; as the kernels sample it.
+glm::dvec4 sample_texture(const Scene& scene, float number, std::uint32_t triangle, const glm::dvec3& weights);
+
 // Of a texture's number in a paint; 0: no texture.
 TextureRange find_texture_range(const Scene& scene, float number);
 

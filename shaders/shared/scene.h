@@ -83,12 +83,12 @@ struct Light {
     vec4 position_kind; // xyz position (area: the middle), w kind as bits (LIGHT_POINT …)
     vec4 intensity;     // rgb radiant intensity in W/sr; directional: irradiance, W/m²; area, environment: radiance, W/(m² sr); w unused
     vec4 direction;     // xyz unit, where a spot or directional light shines; w unused
-    vec4 cone;          // spot: 1 - cos of the inner and the outer angle; area: m², first triangle and their number as bits, sides that shine
+    vec4 cone;          // spot: 1 - cos of the inner and the outer angle; area: m², first emitting triangle and their number as bits, sides that shine
 };
 
-// A triangle of an area light.
+// A triangle of an area light, or a part of one that a texture lights unevenly.
 struct EmittingTriangle {
-    vec4 v0_cumulative; // xyz vertex 0, w share of the light's area up to and with this one
+    vec4 v0_cumulative; // xyz vertex 0, w share of the light's power up to and with this one
     vec4 v1;            // xyz vertex 1, w unused
     vec4 v2;            // xyz vertex 2, w unused
 };

@@ -16,7 +16,7 @@ from PIL import Image
 
 import photonloupe as pl
 from gltf import GltfWriter, Mesh, build_quad, make_diffuse, make_glass, make_mirror
-from lit_scenes import Doubles
+from lit_scenes import Doubles, build_panel, make_lamp, render_below
 
 Codes = NDArray[np.uint8]
 RED, GREEN, BLUE, WHITE = (255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 255)
@@ -307,3 +307,39 @@ def test_additions_keep_painted_scenes_whole(tmp_path: Path) -> None:
     scene = pl.load_scene(write(tmp_path, lambda writer: add_painted_floor(writer, encode(codes), magFilter=9728)))
     scene.add_floor(y=-1.0)
     np.testing.assert_allclose(look_down(scene, np.array([[0.5, -0.5]]))[0], [0.0, 1.0, 0.0], atol=1e-6)
+
+
+def test_a_textured_lamp_sends_what_its_texture_shows(tmp_path: Path) -> None:
+    """One bright quarter: its power, where photons start, and the light that arrives below it."""
+    codes = np.zeros((64, 64, 3), dtype=np.uint8)
+    codes[:32, :32] = (255, 188, 128)
+    half, radiance = 0.25, 8.0
+
+    def change(writer: GltfWriter) -> None:
+        lamp = make_lamp(radiance)
+        lamp["emissiveTexture"] = {"index": writer.add_texture(encode(codes), magFilter=9728)}
+        writer.add_mesh("floor", build_quad(2.0), make_diffuse("plaster", 0.5))
+        writer.add_mesh("lamp", build_panel(half, 1.0), lamp, coordinates=[COORDINATES])
+
+    scene = pl.load_scene(write(tmp_path, change))
+    color = radiance * np.array([1.0, 0.5, 0.25]) * decode_srgb(codes[0, 0])
+    photons = pl.trace_photons(scene, emitted=1 << 16, store="all", max_bounces=1, paths=True)
+    np.testing.assert_allclose(photons.report["flux"]["emitted"], np.pi * color * half**2, rtol=1e-4)
+    starts = photons.path_vertices[photons.path_offsets[:-1]]
+    assert (starts[:, 0] < 1e-6).all()
+    assert (starts[:, 2] < 1e-6).all()
+    np.testing.assert_allclose(starts[:, [0, 2]].mean(axis=0), -half / 2, atol=5e-3)
+    # Radiance times the quarter's projected solid angle at the floor's middle, and the same from a picture.
+    middles = half * ((np.arange(64) + 0.5) / 64.0 - 1.0)
+    squared = 1.0 + middles[:, None] ** 2 + middles[None, :] ** 2
+    truth = color * (1.0 / squared**2).mean() * half**2
+    np.testing.assert_allclose(render_below(scene, samples=1024), truth, rtol=5e-3)
+    seen = pl.render(
+        scene,
+        mode="direct",
+        camera=pl.Camera(position=(-0.1, 0.5, -0.1), target=(-0.1, 1.0, -0.1), up=(0.0, 0.0, -1.0), yfov=1e-3),
+        width=2,
+        height=2,
+        samples=1,
+    )
+    np.testing.assert_allclose(np.asarray(seen).mean(axis=(0, 1)), color, rtol=1e-5)
