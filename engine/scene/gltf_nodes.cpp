@@ -109,31 +109,47 @@ void check_depth(const JsonPlace& nodes, const std::vector<NodeLinks>& links) {
                "break the cycle of nodes");
 }
 
-std::vector<std::uint32_t> find_roots(const JsonPlace& root, const JsonPlace& nodes,
-                                      const std::vector<NodeLinks>& links, std::vector<std::string>& ignored) {
+// What a scene lists, less what it lists again and what it reaches from another root.
+std::vector<std::uint32_t> keep_outermost(const std::vector<std::uint32_t>& listed,
+                                          const std::vector<NodeLinks>& links) {
+    std::vector<bool> is_listed(links.size(), false), is_kept(links.size(), false);
+    for (const std::uint32_t node : listed)
+        is_listed[node] = true;
+    std::vector<std::uint32_t> kept;
+    for (const std::uint32_t node : listed) {
+        std::optional<std::uint32_t> ancestor = links[node].parent;
+        while (ancestor && !is_listed[*ancestor])
+            ancestor = links[*ancestor].parent;
+        if (ancestor || is_kept[node])
+            continue;
+        is_kept[node] = true;
+        kept.push_back(node);
+    }
+    return kept;
+}
+
+std::vector<std::uint32_t> find_roots(const JsonPlace& root, const std::vector<NodeLinks>& links,
+                                      std::vector<std::string>& ignored) {
     const JsonPlace scenes = find_member(root, "scenes");
     const std::size_t scene_count = count_elements(scenes, MAX_ENTRIES);
-    std::vector<std::uint32_t> roots;
-    const auto scene = read_index(find_member(root, "scene"), scene_count, "scene");
-    if (!scene) {
+    const auto default_scene = read_index(find_member(root, "scene"), scene_count, "scene");
+    if (scene_count == 0) {
+        std::vector<std::uint32_t> roots;
         for (std::uint32_t node = 0; node < links.size(); ++node)
             if (!links[node].parent)
                 roots.push_back(node);
         return roots;
     }
+    const std::uint32_t scene = default_scene.value_or(0);
     if (scene_count > 1)
-        ignored.push_back("/scenes: only the default scene " + std::to_string(*scene) + " of " +
-                          std::to_string(scene_count) + " is read");
-    roots = read_indices(find_member(get_element(scenes, *scene), "nodes"), links.size());
-    std::vector<bool> is_root(links.size(), false);
-    for (const std::uint32_t node : roots) {
-        if (links[node].parent || is_root[node])
-            refuse(get_element(nodes, node),
-                   "scene " + std::to_string(*scene) + " lists it as a root, but it is " +
-                       (links[node].parent ? "a child" : "listed twice"),
-                   "list every root once");
-        is_root[node] = true;
-    }
+        ignored.push_back(std::string("/scenes: only the ") + (default_scene ? "default" : "first") + " scene " +
+                          std::to_string(scene) + " of " + std::to_string(scene_count) + " is read");
+    const JsonPlace place = find_member(get_element(scenes, scene), "nodes");
+    const std::vector<std::uint32_t> listed = read_indices(place, links.size());
+    std::vector<std::uint32_t> roots = keep_outermost(listed, links);
+    if (roots.size() < listed.size())
+        ignored.push_back(place.path + ": nodes that are listed twice or are children of others (" +
+                          std::to_string(listed.size() - roots.size()) + ") are drawn once");
     return roots;
 }
 
@@ -163,7 +179,7 @@ std::vector<std::uint64_t> check_nodes(const JsonPlace& root, const NodeTargets&
     }
     link_parents(nodes, links);
     check_depth(nodes, links);
-    const std::vector<std::uint32_t> roots = find_roots(root, nodes, links, ignored);
+    const std::vector<std::uint32_t> roots = find_roots(root, links, ignored);
     approved["scene"] = 0;
     approved["scenes"] = Json::array({{{"nodes", roots}}});
     return count_draws(links, targets.mesh_count, roots);

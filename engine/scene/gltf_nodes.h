@@ -15,7 +15,7 @@ struct NodeTargets {
     std::size_t light_count = 0;
 };
 
-// Writes the approved nodes and one scene: the file's default scene, or all nodes without a parent.
+// Writes the approved nodes and one scene: the file's default scene, its first, or all nodes without a parent.
 // Refuses cycles and nodes with two parents. Returns how often each mesh is drawn.
 std::vector<std::uint64_t> check_nodes(const JsonPlace& root, const NodeTargets& targets, Json& approved,
                                        std::vector<std::string>& ignored);

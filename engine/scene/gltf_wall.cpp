@@ -14,7 +14,6 @@
 #include "scene/gltf_materials.h"
 #include "scene/gltf_meshes.h"
 #include "scene/gltf_nodes.h"
-#include "scene/gltf_uri.h"
 #include "scene/limits.h"
 
 namespace photonloupe {
@@ -22,8 +21,10 @@ namespace {
 
 void check_version(const JsonPlace& root) {
     const JsonPlace asset = require_member(root, "asset");
-    const JsonPlace version = require_member(asset, "version");
-    const std::string text = read_string(version);
+    const JsonPlace version = find_member(asset, "version");
+    const std::string text = read_string_or(version, "1.0"); // glTF 1 may leave it out
+    if (text.starts_with("1."))
+        refuse(version, "glTF version " + quote_text(text), GLTF_1_REMEDY);
     if (!text.starts_with("2."))
         refuse(version, "glTF version " + quote_text(text), "only glTF 2 is read: export it again");
     const std::string minimum = read_string_or(find_member(asset, "minVersion"), "2.0");
@@ -36,22 +37,8 @@ void check_required_extensions(const JsonPlace& root) {
     for (std::size_t i = 0; i < count_elements(required, MAX_ENTRIES); ++i) {
         const JsonPlace place = get_element(required, i);
         const std::string name = read_string(place);
-        if (!is_known_extension(name))
+        if (!is_known_extension(name) && !is_dispensable_extension(name))
             refuse(place, "the required extension " + quote_text(name) + " is not supported", "export it without");
-    }
-}
-
-// Images are never opened; what they name is held to the same rules all the same.
-void check_images(const JsonPlace& root, const std::filesystem::path& folder) {
-    const JsonPlace images = find_member(root, "images");
-    const std::size_t count = count_elements(images, MAX_IMAGES);
-    for (std::size_t i = 0; i < count; ++i) {
-        const JsonPlace place = find_member(get_element(images, i), "uri");
-        if (!place.value)
-            continue;
-        const std::string uri = read_string(place);
-        if (!uri.starts_with("data:") && !folder.empty())
-            resolve_uri(uri, folder, place);
     }
 }
 
@@ -82,7 +69,7 @@ ApprovedGltf approve_gltf(std::span<const unsigned char> bytes, const std::files
     const JsonPlace root{&document, "", &name};
     check_version(root);
     check_required_extensions(root);
-    check_images(root, folder);
+    count_elements(find_member(root, "images"), MAX_IMAGES);
 
     ApprovedGltf result;
     Json approved{{"asset", {{"version", "2.0"}}}};
