@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "scene/gltf_draco.h"
 #include "scene/limits.h"
 
 namespace photonloupe {
@@ -31,8 +32,6 @@ public:
     AccessorChecks(AccessorTable& accessors, std::vector<std::string>& ignored)
         : m_accessors(accessors), m_ignored(ignored), m_largest_index(accessors.get_count()),
           m_is_finite(accessors.get_count()) {}
-
-    std::size_t get_count() const { return m_accessors.get_count(); }
 
     std::uint64_t check_vectors(std::uint32_t index, const Attribute& attribute) {
         const AccessorColumn& column = m_accessors.use(index);
@@ -109,13 +108,15 @@ std::uint64_t count_triangles(std::uint64_t mode, std::uint64_t vertex_count, co
 
 // Checks one primitive that draws triangles; returns their number.
 std::uint64_t check_triangles(const JsonPlace& place, std::uint64_t mode, std::size_t material_count,
-                              AccessorChecks& checks, Json& approved) {
+                              AccessorTable& accessors, AccessorChecks& checks, Json& approved) {
+    if (decode_draco(place, accessors))
+        mode = MODE_TRIANGLES;
     const JsonPlace attributes = find_member(place, "attributes");
-    const auto positions = *read_index(find_member(attributes, POSITION.name), checks.get_count(), "accessor");
+    const auto positions = *read_index(find_member(attributes, POSITION.name), accessors.get_count(), "accessor");
     const std::uint64_t vertex_count = checks.check_vectors(positions, POSITION);
     approved = {{"mode", mode}, {"attributes", {{POSITION.name, positions}}}};
     for (const Attribute& attribute : OPTIONAL_ATTRIBUTES) {
-        const auto index = read_index(find_member(attributes, attribute.name), checks.get_count(), "accessor");
+        const auto index = read_index(find_member(attributes, attribute.name), accessors.get_count(), "accessor");
         if (!index)
             continue;
         const std::uint64_t count = checks.check_vectors(*index, attribute);
@@ -128,7 +129,7 @@ std::uint64_t check_triangles(const JsonPlace& place, std::uint64_t mode, std::s
     if (const auto material = read_index(find_member(place, "material"), material_count, "material"))
         approved["material"] = *material;
     std::uint64_t corner_count = vertex_count;
-    if (const auto indices = read_index(find_member(place, "indices"), checks.get_count(), "accessor")) {
+    if (const auto indices = read_index(find_member(place, "indices"), accessors.get_count(), "accessor")) {
         corner_count = checks.check_indices(*indices, vertex_count, place);
         approved["attributes"][INDICES] = *indices;
     }
@@ -136,8 +137,8 @@ std::uint64_t check_triangles(const JsonPlace& place, std::uint64_t mode, std::s
 }
 
 // Checks the primitives of a mesh that is drawn; returns the number of triangles.
-std::uint64_t check_primitives(const JsonPlace& primitives, std::size_t material_count, AccessorChecks& checks,
-                               Json& approved, std::vector<std::string>& ignored) {
+std::uint64_t check_primitives(const JsonPlace& primitives, std::size_t material_count, AccessorTable& accessors,
+                               AccessorChecks& checks, Json& approved, std::vector<std::string>& ignored) {
     std::uint64_t triangle_count = 0;
     for (std::size_t i = 0; i < count_elements(primitives, MAX_ENTRIES); ++i) {
         const JsonPlace primitive = get_element(primitives, i);
@@ -148,7 +149,7 @@ std::uint64_t check_primitives(const JsonPlace& primitives, std::size_t material
             ignored.push_back(primitive.path + ": a primitive without POSITION draws nothing");
         } else {
             approved.emplace_back();
-            triangle_count += check_triangles(primitive, mode, material_count, checks, approved.back());
+            triangle_count += check_triangles(primitive, mode, material_count, accessors, checks, approved.back());
         }
     }
     return triangle_count;
@@ -168,7 +169,7 @@ void check_meshes(const JsonPlace& root, const std::vector<std::uint64_t>& draw_
         Json approved_primitives = Json::array();
         if (draw_counts[mesh] > 0) {
             const std::uint64_t count =
-                check_primitives(primitives, material_count, checks, approved_primitives, ignored);
+                check_primitives(primitives, material_count, accessors, checks, approved_primitives, ignored);
             if (count > 0 && draw_counts[mesh] > (MAX_TRIANGLES - total) / count)
                 refuse(meshes, "the scene draws more than " + std::to_string(MAX_TRIANGLES) + " triangles",
                        "simplify the meshes or draw fewer instances");
