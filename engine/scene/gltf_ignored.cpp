@@ -14,10 +14,10 @@
 namespace photonloupe {
 namespace {
 
-constexpr std::array<std::string_view, 8> KNOWN_EXTENSIONS{
+constexpr std::array<std::string_view, 9> KNOWN_EXTENSIONS{
     "KHR_lights_punctual",        "KHR_materials_transmission",      "KHR_materials_volume",
     "KHR_materials_ior",          "KHR_materials_emissive_strength", "KHR_mesh_quantization",
-    "KHR_draco_mesh_compression", "EXT_meshopt_compression"};
+    "KHR_draco_mesh_compression", "EXT_meshopt_compression",         "EXT_mesh_gpu_instancing"};
 
 // Parts of names: what follows the vendor's letters in "KHR_materials_unlit" or "EXT_texture_webp".
 constexpr std::array<std::string_view, 6> DISPENSABLE_KINDS{"_materials_", "_texture_", "_lights_",
@@ -33,7 +33,6 @@ const std::map<std::string_view, const char*>& get_member_features() {
         {"emissiveTexture", "emissive textures (what they light up is dark)"},
         {"transmissionTexture", "transmission textures"},
         {"thicknessTexture", "thickness textures"},
-        {"targets", "morph targets"},
         {"COLOR_0", "vertex colors"},
         {"orthographic", "orthographic cameras"},
         {"range", "the range of lights (light reaches everywhere)"},
@@ -96,7 +95,7 @@ std::vector<std::string> list_ignored_features(const JsonPlace& root) {
     std::map<std::string, std::size_t> counts;
     count_features(*root.value, counts);
     count_used_extensions(root, counts);
-    for (const char* section : {"images", "textures", "skins", "animations"})
+    for (const char* section : {"images", "textures", "animations"})
         if (const std::size_t count = count_elements(find_member(root, section), MAX_ENTRIES))
             counts[section] = count;
     std::vector<std::string> ignored;

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "scene/gltf_skins.h"
 #include "scene/limits.h"
 
 namespace photonloupe {
@@ -17,6 +18,7 @@ struct NodeLinks {
     std::vector<std::uint32_t> children;
     std::optional<std::uint32_t> parent;
     std::optional<std::uint32_t> mesh;
+    std::uint64_t draw_count = 1; // of the mesh
 };
 
 std::vector<std::uint32_t> read_indices(const JsonPlace& array, std::size_t count) {
@@ -50,7 +52,32 @@ void write_transform(const JsonPlace& node, Json& approved) {
     approved["scale"] = read_numbers_or(find_member(node, "scale"), {1, 1, 1});
 }
 
-NodeLinks check_node(const JsonPlace& node, std::size_t node_count, const NodeTargets& targets, Json& approved) {
+// Returns how many instances the node has.
+std::uint64_t check_instances(const JsonPlace& node, AccessorTable& accessors, Json& approved) {
+    const JsonPlace extension = find_member(find_member(node, "extensions"), "EXT_mesh_gpu_instancing");
+    if (!extension.value)
+        return 1;
+    const JsonPlace attributes = require_member(extension, "attributes");
+    std::optional<std::uint64_t> count;
+    for (const auto& [name, width] : INSTANCE_ATTRIBUTES) {
+        const JsonPlace place = find_member(attributes, name);
+        const auto index = read_index(place, accessors.get_count(), "accessor");
+        if (!index)
+            continue;
+        const AccessorColumn& column = accessors.use(*index);
+        if (column.width != width || column.component_type == COMPONENT_UNSIGNED_INT)
+            refuse(place, "it must be VEC" + std::to_string(width) + " of floats or normalized integers", REMEDY);
+        if (column.count != count.value_or(column.count))
+            refuse(place, std::to_string(column.count) + " instances, but " + std::to_string(*count) + " before",
+                   REMEDY);
+        count = column.count;
+        approved["extensions"]["EXT_mesh_gpu_instancing"][name] = *index;
+    }
+    return count.value_or(1);
+}
+
+NodeLinks check_node(const JsonPlace& node, std::size_t node_count, const NodeTargets& targets,
+                     AccessorTable& accessors, Json& approved) {
     NodeLinks links;
     links.children = read_indices(find_member(node, "children"), node_count);
     links.mesh = read_index(find_member(node, "mesh"), targets.mesh_count, "mesh");
@@ -58,8 +85,14 @@ NodeLinks check_node(const JsonPlace& node, std::size_t node_count, const NodeTa
     write_transform(node, approved);
     if (!links.children.empty())
         approved["children"] = links.children;
-    if (links.mesh)
+    if (links.mesh) {
         approved["mesh"] = *links.mesh;
+        links.draw_count = check_instances(node, accessors, approved);
+        if (const JsonPlace weights = find_member(node, "weights"); weights.value)
+            approved["weights"] = read_weights(weights);
+        if (const auto skin = read_index(find_member(node, "skin"), targets.skin_count, "skin"))
+            approved["skin"] = *skin;
+    }
     if (const auto camera = read_index(find_member(node, "camera"), targets.camera_count, "camera"))
         approved["camera"] = *camera;
     const JsonPlace extension = find_member(find_member(node, "extensions"), "KHR_lights_punctual");
@@ -161,21 +194,21 @@ std::vector<std::uint64_t> count_draws(const std::vector<NodeLinks>& links, std:
         stack.pop_back();
         stack.insert(stack.end(), node.children.begin(), node.children.end());
         if (node.mesh)
-            ++counts[*node.mesh];
+            counts[*node.mesh] += node.draw_count; // at most 2^18 nodes of 2^31 instances
     }
     return counts;
 }
 
 } // namespace
 
-std::vector<std::uint64_t> check_nodes(const JsonPlace& root, const NodeTargets& targets, Json& approved,
-                                       std::vector<std::string>& ignored) {
+std::vector<std::uint64_t> check_nodes(const JsonPlace& root, const NodeTargets& targets, AccessorTable& accessors,
+                                       Json& approved, std::vector<std::string>& ignored) {
     const JsonPlace nodes = find_member(root, "nodes");
     const std::size_t node_count = count_elements(nodes, MAX_ENTRIES);
     std::vector<NodeLinks> links;
     for (std::size_t i = 0; i < node_count; ++i) {
         approved["nodes"].emplace_back();
-        links.push_back(check_node(get_element(nodes, i), node_count, targets, approved["nodes"].back()));
+        links.push_back(check_node(get_element(nodes, i), node_count, targets, accessors, approved["nodes"].back()));
     }
     link_parents(nodes, links);
     check_depth(nodes, links);

@@ -14,6 +14,7 @@
 #include "scene/gltf_materials.h"
 #include "scene/gltf_meshes.h"
 #include "scene/gltf_nodes.h"
+#include "scene/gltf_skins.h"
 #include "scene/limits.h"
 
 namespace photonloupe {
@@ -79,10 +80,12 @@ ApprovedGltf approve_gltf(std::span<const unsigned char> bytes, const std::files
     check_materials(root, approved);
     NodeTargets targets;
     targets.mesh_count = count_elements(find_member(root, "meshes"), MAX_ENTRIES);
+    targets.skin_count = count_elements(find_member(root, "skins"), MAX_ENTRIES);
     targets.camera_count = check_cameras(root, approved);
     targets.light_count = check_lights(root, approved);
-    const std::vector<std::uint64_t> draw_counts = check_nodes(root, targets, approved, result.ignored);
     AccessorTable accessors(root, result.buffers);
+    const std::vector<std::uint64_t> draw_counts = check_nodes(root, targets, accessors, approved, result.ignored);
+    check_skins(root, accessors, approved);
     check_meshes(root, draw_counts, accessors, approved, result.ignored);
     result.columns = accessors.take_columns();
     result.json = approved.dump();
