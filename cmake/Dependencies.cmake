@@ -7,6 +7,8 @@ find_package(glslang REQUIRED)
 find_package(glm REQUIRED)
 find_package(TinyGLTF REQUIRED)
 find_package(nlohmann_json REQUIRED)
+find_package(draco REQUIRED)
+find_package(meshoptimizer REQUIRED)
 find_package(OpenEXR REQUIRED)
 find_package(PNG REQUIRED)
 find_library(TURBOJPEG_LIBRARY turbojpeg REQUIRED)
@@ -19,5 +21,5 @@ target_include_directories(photonloupe_dependencies SYSTEM INTERFACE ${VOLK_INCL
 target_link_libraries(photonloupe_dependencies INTERFACE
   ${CMAKE_DL_LIBS} Threads::Threads
   glslang::glslang glslang::SPIRV glslang::glslang-default-resource-limits
-  glm::glm TinyGLTF::TinyGLTF nlohmann_json::nlohmann_json OpenEXR::OpenEXR PNG::PNG
-  ${TURBOJPEG_LIBRARY} ${WEBP_LIBRARY})
+  glm::glm TinyGLTF::TinyGLTF nlohmann_json::nlohmann_json draco::draco
+  meshoptimizer::meshoptimizer OpenEXR::OpenEXR PNG::PNG ${TURBOJPEG_LIBRARY} ${WEBP_LIBRARY})

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "scene/gltf_meshopt.h"
 #include "scene/limits.h"
 
 namespace photonloupe {
@@ -76,7 +77,7 @@ void place_elements(const JsonPlace& place, std::span<const unsigned char> view,
 
 AccessorTable::AccessorTable(const JsonPlace& root, BufferBytes& buffers)
     : m_views(find_member(root, "bufferViews")), m_accessors(find_member(root, "accessors")), m_buffers(buffers),
-      m_file_buffer_count(buffers.size()), m_view_count(count_elements(m_views, MAX_ENTRIES)),
+      m_file_buffer_count(buffers.size()), m_decoded_views(count_elements(m_views, MAX_ENTRIES)),
       m_columns(count_elements(m_accessors, MAX_ENTRIES)) {}
 
 JsonPlace AccessorTable::get_place(std::uint32_t accessor) const {
@@ -94,7 +95,14 @@ const AccessorColumn& AccessorTable::use(std::uint32_t accessor) {
     return column;
 }
 
-void AccessorTable::list_broken(std::vector<std::string>& ignored) const {
+void AccessorTable::fill(std::uint32_t accessor, AccessorColumn column) {
+    if (is_filled(accessor))
+        return;
+    column.is_normalized = read_flag_or(find_member(get_place(accessor), "normalized"), false);
+    m_columns[accessor] = column;
+}
+
+void AccessorTable::list_broken(std::vector<std::string>& ignored) {
     std::size_t count = 0;
     std::string first;
     for (std::uint32_t i = 0; i < m_columns.size(); ++i)
@@ -109,12 +117,10 @@ void AccessorTable::list_broken(std::vector<std::string>& ignored) const {
         ignored.push_back("broken accessors that nothing drawn uses (" + std::to_string(count) + "): " + first);
 }
 
-AccessorTable::BufferView AccessorTable::check_view(const JsonPlace& index_place) const {
-    const JsonPlace place = get_element(m_views, *read_index(index_place, m_view_count, "buffer view"));
+std::span<const unsigned char> AccessorTable::find_bytes(const JsonPlace& place) const {
     const std::size_t buffer = *read_index(require_member(place, "buffer"), m_file_buffer_count, "buffer");
     const std::uint64_t offset = read_unsigned_or(find_member(place, "byteOffset"), MAX_BUFFER_BYTES, 0);
     const std::uint64_t length = read_unsigned(require_member(place, "byteLength"), MAX_BUFFER_BYTES);
-    const std::uint64_t stride = read_unsigned_or(find_member(place, "byteStride"), MAX_BUFFER_BYTES, 0);
     if (length == 0)
         refuse(place, "byteLength is 0", REMEDY);
     if (offset + length > m_buffers[buffer].size())
@@ -122,10 +128,25 @@ AccessorTable::BufferView AccessorTable::check_view(const JsonPlace& index_place
                "it ends at byte " + std::to_string(offset + length) + " of buffer " + std::to_string(buffer) +
                    ", which has " + std::to_string(m_buffers[buffer].size()),
                REMEDY);
-    return {std::span(m_buffers[buffer]).subspan(offset, length), stride};
+    return std::span(m_buffers[buffer]).subspan(offset, length);
 }
 
-AccessorColumn AccessorTable::check_accessor(const JsonPlace& place) const {
+AccessorTable::BufferView AccessorTable::check_view(const JsonPlace& index_place) {
+    const std::uint32_t index = *read_index(index_place, m_decoded_views.size(), "buffer view");
+    const JsonPlace place = get_element(m_views, index);
+    const std::uint64_t stride = read_unsigned_or(find_member(place, "byteStride"), MAX_BUFFER_BYTES, 0);
+    const JsonPlace extension = find_member(find_member(place, "extensions"), "EXT_meshopt_compression");
+    if (!extension.value)
+        return {find_bytes(place), stride};
+    if (m_decoded_views[index].empty()) {
+        const std::span<unsigned char> decoded = allocate(extension, measure_meshopt(extension));
+        decode_meshopt(extension, find_bytes(extension), decoded);
+        m_decoded_views[index] = decoded;
+    }
+    return {m_decoded_views[index], stride};
+}
+
+AccessorColumn AccessorTable::check_accessor(const JsonPlace& place) {
     AccessorColumn column;
     column.component_type = read_unsigned(require_member(place, "componentType"), COMPONENT_FLOAT);
     column.count = read_unsigned(require_member(place, "count"), MAX_BUFFER_BYTES);
@@ -143,8 +164,7 @@ AccessorColumn AccessorTable::check_accessor(const JsonPlace& place) const {
     return column;
 }
 
-AccessorColumn AccessorTable::check_sparse_part(const JsonPlace& sparse, const char* part,
-                                                AccessorColumn column) const {
+AccessorColumn AccessorTable::check_sparse_part(const JsonPlace& sparse, const char* part, AccessorColumn column) {
     const JsonPlace place = require_member(sparse, part);
     place_elements(place, check_view(require_member(place, "bufferView")).bytes, 0, column);
     return column;

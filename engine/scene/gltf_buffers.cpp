@@ -22,6 +22,7 @@ std::vector<unsigned char> read_buffer(const JsonPlace& place, std::size_t index
     if (length > budget)
         refuse(place, "the buffers together exceed " + std::to_string(MAX_BUFFER_BYTES) + " bytes", "split the scene");
     const JsonPlace uri_place = find_member(place, "uri");
+    const JsonPlace extension = find_member(find_member(place, "extensions"), "EXT_meshopt_compression");
     std::vector<unsigned char> bytes;
     if (uri_place.value) {
         const std::string uri = read_string(uri_place);
@@ -32,6 +33,8 @@ std::vector<unsigned char> read_buffer(const JsonPlace& place, std::size_t index
     } else if (index == 0 && binary_chunk) {
         bytes.assign(binary_chunk->begin(),
                      binary_chunk->begin() + std::min<std::uint64_t>(length, binary_chunk->size()));
+    } else if (read_flag_or(find_member(extension, "fallback"), false)) {
+        return {}; // for readers that can't decompress
     } else {
         refuse(place, "it has neither a uri nor a binary chunk", "only buffer 0 of a GLB may do without a uri");
     }

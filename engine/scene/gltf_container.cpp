@@ -36,7 +36,8 @@ GltfContainer split_glb(std::span<const unsigned char> bytes, const JsonPlace& p
         refuse(place, "a GLB of " + std::to_string(bytes.size()) + " bytes has no room for its header",
                TRUNCATED_REMEDY);
     if (const std::uint32_t version = read_u32(bytes, 4); version != GLB_VERSION)
-        refuse(place, "GLB container version " + std::to_string(version), "only version 2 is read: export it again");
+        refuse(place, "GLB container version " + std::to_string(version),
+               version == 1 ? GLTF_1_REMEDY : "only version 2 is read: export it again");
     const std::uint64_t length = read_u32(bytes, 8);
     if (length != bytes.size())
         refuse(place,

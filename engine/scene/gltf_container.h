@@ -14,6 +14,10 @@
 
 namespace photonloupe {
 
+// What to do about files of glTF 1.
+constexpr const char* GLTF_1_REMEDY =
+    "only glTF 2 is read: convert it with npx gltf-pipeline -i OLD.gltf -o NEW.gltf (.glb to .glb alike)";
+
 struct GltfContainer {
     std::string_view json;
     std::optional<std::span<const unsigned char>> binary_chunk; // GLB's buffer 0

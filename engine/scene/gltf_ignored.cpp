@@ -14,21 +14,21 @@
 namespace photonloupe {
 namespace {
 
-constexpr std::array<std::string_view, 8> KNOWN_EXTENSIONS{"KHR_lights_punctual",
-                                                           "KHR_materials_transmission",
-                                                           "KHR_materials_volume",
-                                                           "KHR_materials_ior",
-                                                           "KHR_materials_emissive_strength",
-                                                           "KHR_mesh_quantization",
-                                                           "KHR_texture_transform",
-                                                           "EXT_texture_webp"};
+constexpr std::array<std::string_view, 11> KNOWN_EXTENSIONS{
+    "KHR_lights_punctual",        "KHR_materials_transmission",      "KHR_materials_volume",
+    "KHR_materials_ior",          "KHR_materials_emissive_strength", "KHR_mesh_quantization",
+    "KHR_draco_mesh_compression", "EXT_meshopt_compression",         "EXT_mesh_gpu_instancing",
+    "KHR_texture_transform",      "EXT_texture_webp"};
+
+// Parts of names: what follows the vendor's letters in "KHR_materials_unlit" or "EXT_texture_webp".
+constexpr std::array<std::string_view, 6> DISPENSABLE_KINDS{"_materials_", "_texture_", "_lights_",
+                                                            "_animation_", "_xmp",      "_audio"};
 
 // Members that are listed wherever they stand; the text is what the user reads.
 const std::map<std::string_view, const char*>& get_member_features() {
     static const std::map<std::string_view, const char*> features{
         {"occlusionTexture", "occlusion textures"},
         {"thicknessTexture", "thickness textures"},
-        {"targets", "morph targets"},
         {"orthographic", "orthographic cameras"},
         {"range", "the range of lights (light reaches everywhere)"},
     };
@@ -56,11 +56,13 @@ void count_features(const Json& value, std::map<std::string, std::size_t>& count
 }
 
 void count_used_extensions(const JsonPlace& root, std::map<std::string, std::size_t>& counts) {
-    const JsonPlace used = find_member(root, "extensionsUsed");
-    for (std::size_t i = 0; i < count_elements(used, MAX_ENTRIES); ++i) {
-        const std::string name = read_string(get_element(used, i));
-        if (!is_known_extension(name))
-            counts.try_emplace("extension " + quote_text(name), 0);
+    for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+        const JsonPlace names = find_member(root, list);
+        for (std::size_t i = 0; i < count_elements(names, MAX_ENTRIES); ++i) {
+            const std::string name = read_string(get_element(names, i));
+            if (!is_known_extension(name))
+                counts.try_emplace("extension " + quote_text(name), 0);
+        }
     }
 }
 
@@ -70,13 +72,17 @@ bool is_known_extension(std::string_view name) {
     return std::find(KNOWN_EXTENSIONS.begin(), KNOWN_EXTENSIONS.end(), name) != KNOWN_EXTENSIONS.end();
 }
 
+bool is_dispensable_extension(std::string_view name) {
+    return std::any_of(DISPENSABLE_KINDS.begin(), DISPENSABLE_KINDS.end(),
+                       [name](std::string_view kind) { return name.find(kind) != name.npos; });
+}
+
 std::vector<std::string> list_ignored_features(const JsonPlace& root) {
     std::map<std::string, std::size_t> counts;
     count_features(*root.value, counts);
     count_used_extensions(root, counts);
-    for (const char* section : {"skins", "animations"})
-        if (const std::size_t count = count_elements(find_member(root, section), MAX_ENTRIES))
-            counts[section] = count;
+    if (const std::size_t count = count_elements(find_member(root, "animations"), MAX_ENTRIES))
+        counts["animations"] = count;
     std::vector<std::string> ignored;
     for (const auto& [feature, count] : counts)
         ignored.push_back(feature + (count > 1 ? " (" + std::to_string(count) + ")" : "") + ": not modeled");

@@ -19,7 +19,7 @@ constexpr NumberRange NOT_NEGATIVE{0.0};
 // Beyond, a field of view has no finite image plane.
 constexpr double MAX_YFOV = 3.14;
 constexpr double WIDEST_CONE = 0.5 * std::numbers::pi;
-// Indices of refraction of real matter end near 4; glTF's special 0 (a perfect Fresnel reflector) is not modeled.
+// Indices of refraction of real matter end near 4.
 constexpr NumberRange IOR{1.0, 100.0};
 
 JsonPlace find_extension(const JsonPlace& owner, const char* name) {
@@ -30,6 +30,11 @@ NumberRange require_positive(const JsonPlace& place, double hi) {
     if (place.value && place.value->is_number() && place.value->get<double>() <= 0)
         refuse(place, "it must be more than 0", "set it to a positive value");
     return {0.0, hi};
+}
+
+// glTF's special 0 is a perfect Fresnel reflector; the largest index reflects 96 % of what comes head-on.
+double read_ior(const JsonPlace& place) {
+    return place.value && *place.value == 0 ? IOR.hi : read_number_or(place, 1.5, IOR);
 }
 
 void write_volume(const JsonPlace& material, Json& extensions) {
@@ -56,8 +61,7 @@ Json check_material(const JsonPlace& place) {
     Json extensions = Json::object();
     extensions["KHR_materials_transmission"]["transmissionFactor"] = read_number_or(
         find_member(find_extension(place, "KHR_materials_transmission"), "transmissionFactor"), 0.0, UNIT);
-    extensions["KHR_materials_ior"]["ior"] =
-        read_number_or(find_member(find_extension(place, "KHR_materials_ior"), "ior"), 1.5, IOR);
+    extensions["KHR_materials_ior"]["ior"] = read_ior(find_member(find_extension(place, "KHR_materials_ior"), "ior"));
     extensions["KHR_materials_emissive_strength"]["emissiveStrength"] = read_number_or(
         find_member(find_extension(place, "KHR_materials_emissive_strength"), "emissiveStrength"), 1.0, POWER);
     write_volume(place, extensions);

@@ -8,6 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "scene/gltf_draco.h"
+#include "scene/gltf_skins.h"
 #include "scene/limits.h"
 
 namespace photonloupe {
@@ -21,8 +23,17 @@ struct Attribute {
     std::uint32_t fewest_components;
     std::uint32_t most_components;
 };
-constexpr std::array<Attribute, 5> OPTIONAL_ATTRIBUTES{
-    {{"NORMAL", 3, 3}, {"TANGENT", 4, 4}, {"TEXCOORD_0", 2, 2}, {"TEXCOORD_1", 2, 2}, {"COLOR_0", 3, 4}}};
+constexpr std::array<Attribute, 9> OPTIONAL_ATTRIBUTES{{{"NORMAL", 3, 3},
+                                                        {"TANGENT", 4, 4},
+                                                        {"TEXCOORD_0", 2, 2},
+                                                        {"TEXCOORD_1", 2, 2},
+                                                        {"COLOR_0", 3, 4},
+                                                        {"JOINTS_0", 4, 4},
+                                                        {"WEIGHTS_0", 4, 4},
+                                                        {"JOINTS_1", 4, 4},
+                                                        {"WEIGHTS_1", 4, 4}}};
+// What morph targets move.
+constexpr std::array<Attribute, 3> MORPHED_ATTRIBUTES{{{"POSITION", 3, 3}, {"NORMAL", 3, 3}, {"TANGENT", 3, 3}}};
 constexpr Attribute POSITION{"POSITION", 3, 3};
 
 // Looks at each accessor's bytes once, however many primitives share it.
@@ -31,8 +42,6 @@ public:
     AccessorChecks(AccessorTable& accessors, std::vector<std::string>& ignored)
         : m_accessors(accessors), m_ignored(ignored), m_largest_index(accessors.get_count()),
           m_is_finite(accessors.get_count()) {}
-
-    std::size_t get_count() const { return m_accessors.get_count(); }
 
     std::uint64_t check_vectors(std::uint32_t index, const Attribute& attribute) {
         const AccessorColumn& column = m_accessors.use(index);
@@ -44,6 +53,8 @@ public:
                        " of floats or of integers of 8 or 16 bits, this is " + read_string(find_member(place, "type")) +
                        " of type " + std::to_string(column.component_type),
                    REMEDY);
+        if (std::string_view(attribute.name).starts_with("JOINTS") && !column.is_unsigned())
+            refuse(place, std::string(attribute.name) + " must be of unsigned integers", REMEDY);
         if (!m_is_finite[index])
             check_finite(column, place, attribute);
         m_is_finite[index] = true;
@@ -75,7 +86,7 @@ private:
                 if (std::isfinite(column.read(i, part)))
                     continue;
                 ++count;
-                if (attribute.name == POSITION.name)
+                if (std::string_view(attribute.name) == POSITION.name)
                     refuse(place,
                            "POSITION " + std::to_string(i) + " is not finite in component " + std::to_string(part),
                            "remove NaN and infinity from the mesh");
@@ -107,28 +118,45 @@ std::uint64_t count_triangles(std::uint64_t mode, std::uint64_t vertex_count, co
     return vertex_count / 3;
 }
 
-// Checks one primitive that draws triangles; returns their number.
-std::uint64_t check_triangles(const JsonPlace& place, std::uint64_t mode, std::size_t material_count,
-                              AccessorChecks& checks, Json& approved) {
-    const JsonPlace attributes = find_member(place, "attributes");
-    const auto positions = *read_index(find_member(attributes, POSITION.name), checks.get_count(), "accessor");
-    const std::uint64_t vertex_count = checks.check_vectors(positions, POSITION);
-    approved = {{"mode", mode}, {"attributes", {{POSITION.name, positions}}}};
-    for (const Attribute& attribute : OPTIONAL_ATTRIBUTES) {
-        const auto index = read_index(find_member(attributes, attribute.name), checks.get_count(), "accessor");
+// Writes those attributes that are there and may be read.
+template <std::size_t Count>
+void check_attributes(const JsonPlace& attributes, const std::array<Attribute, Count>& known,
+                      std::uint64_t vertex_count, std::size_t accessor_count, AccessorChecks& checks, Json& approved) {
+    for (const Attribute& attribute : known) {
+        const auto index = read_index(find_member(attributes, attribute.name), accessor_count, "accessor");
         if (!index)
             continue;
         const std::uint64_t count = checks.check_vectors(*index, attribute);
         if (count != vertex_count)
-            refuse(place,
+            refuse(attributes,
                    std::to_string(vertex_count) + " positions but " + std::to_string(count) + " of " + attribute.name,
                    REMEDY);
-        approved["attributes"][attribute.name] = *index;
+        approved[attribute.name] = *index;
+    }
+}
+
+// Checks one primitive that draws triangles; returns their number.
+std::uint64_t check_triangles(const JsonPlace& place, std::uint64_t mode, std::size_t material_count,
+                              AccessorTable& accessors, AccessorChecks& checks, Json& approved) {
+    if (decode_draco(place, accessors))
+        mode = MODE_TRIANGLES;
+    const JsonPlace attributes = find_member(place, "attributes");
+    const auto positions = *read_index(find_member(attributes, POSITION.name), accessors.get_count(), "accessor");
+    const std::uint64_t vertex_count = checks.check_vectors(positions, POSITION);
+    approved = {{"mode", mode}, {"attributes", {{POSITION.name, positions}}}};
+    check_attributes(attributes, OPTIONAL_ATTRIBUTES, vertex_count, accessors.get_count(), checks,
+                     approved["attributes"]);
+    const JsonPlace targets = find_member(place, "targets");
+    for (std::size_t i = 0; i < count_elements(targets, MAX_ENTRIES); ++i) {
+        Json target = Json::object();
+        check_attributes(get_element(targets, i), MORPHED_ATTRIBUTES, vertex_count, accessors.get_count(), checks,
+                         target);
+        approved["targets"].push_back(std::move(target));
     }
     if (const auto material = read_index(find_member(place, "material"), material_count, "material"))
         approved["material"] = *material;
     std::uint64_t corner_count = vertex_count;
-    if (const auto indices = read_index(find_member(place, "indices"), checks.get_count(), "accessor")) {
+    if (const auto indices = read_index(find_member(place, "indices"), accessors.get_count(), "accessor")) {
         corner_count = checks.check_indices(*indices, vertex_count, place);
         approved["attributes"][INDICES] = *indices;
     }
@@ -136,8 +164,8 @@ std::uint64_t check_triangles(const JsonPlace& place, std::uint64_t mode, std::s
 }
 
 // Checks the primitives of a mesh that is drawn; returns the number of triangles.
-std::uint64_t check_primitives(const JsonPlace& primitives, std::size_t material_count, AccessorChecks& checks,
-                               Json& approved, std::vector<std::string>& ignored) {
+std::uint64_t check_primitives(const JsonPlace& primitives, std::size_t material_count, AccessorTable& accessors,
+                               AccessorChecks& checks, Json& approved, std::vector<std::string>& ignored) {
     std::uint64_t triangle_count = 0;
     for (std::size_t i = 0; i < count_elements(primitives, MAX_ENTRIES); ++i) {
         const JsonPlace primitive = get_element(primitives, i);
@@ -148,7 +176,7 @@ std::uint64_t check_primitives(const JsonPlace& primitives, std::size_t material
             ignored.push_back(primitive.path + ": a primitive without POSITION draws nothing");
         } else {
             approved.emplace_back();
-            triangle_count += check_triangles(primitive, mode, material_count, checks, approved.back());
+            triangle_count += check_triangles(primitive, mode, material_count, accessors, checks, approved.back());
         }
     }
     return triangle_count;
@@ -161,21 +189,26 @@ void check_meshes(const JsonPlace& root, const std::vector<std::uint64_t>& draw_
     AccessorChecks checks(accessors, ignored);
     const std::size_t material_count = count_elements(find_member(root, "materials"), MAX_ENTRIES);
     const JsonPlace meshes = find_member(root, "meshes");
-    std::uint64_t total = 0;
+    std::uint64_t total = 0, object_count = 0;
     for (std::size_t mesh = 0; mesh < draw_counts.size(); ++mesh) {
         const JsonPlace place = get_element(meshes, mesh);
         const JsonPlace primitives = require_member(place, "primitives");
-        Json approved_primitives = Json::array();
+        Json entry{{"name", read_string_or(find_member(place, "name"), "")}, {"primitives", Json::array()}};
         if (draw_counts[mesh] > 0) {
             const std::uint64_t count =
-                check_primitives(primitives, material_count, checks, approved_primitives, ignored);
+                check_primitives(primitives, material_count, accessors, checks, entry["primitives"], ignored);
             if (count > 0 && draw_counts[mesh] > (MAX_TRIANGLES - total) / count)
                 refuse(meshes, "the scene draws more than " + std::to_string(MAX_TRIANGLES) + " triangles",
                        "simplify the meshes or draw fewer instances");
             total += count * draw_counts[mesh];
+            object_count += entry["primitives"].size() * draw_counts[mesh]; // no more than triangles
+            if (object_count > MAX_OBJECTS || draw_counts[mesh] > MAX_OBJECTS)
+                refuse(meshes, "the scene draws more than " + std::to_string(MAX_OBJECTS) + " objects",
+                       "join meshes or draw fewer instances");
+            if (const JsonPlace weights = find_member(place, "weights"); weights.value)
+                entry["weights"] = read_weights(weights);
         }
-        approved["meshes"].push_back(
-            {{"name", read_string_or(find_member(place, "name"), "")}, {"primitives", std::move(approved_primitives)}});
+        approved["meshes"].push_back(std::move(entry));
     }
     accessors.list_broken(ignored);
 }

@@ -3,15 +3,13 @@
 #include "scene/gltf_uri.h"
 
 #include <algorithm>
-#include <array>
 #include <string>
 
 namespace photonloupe {
 namespace {
 
 constexpr const char* RELATIVE_REMEDY = "put the file into the scene's folder and name it by a relative path";
-constexpr std::array<std::string_view, 2> DATA_PREFIXES{"data:application/octet-stream;base64,",
-                                                        "data:application/gltf-buffer;base64,"};
+constexpr std::string_view BASE64_MARK = ";base64,"; // exporters write many media types before it
 
 int decode_hex_digit(char c) {
     if (c >= '0' && c <= '9')
@@ -99,11 +97,11 @@ void check_path_text(const std::string& path, std::string_view uri, const JsonPl
 std::optional<std::vector<unsigned char>> decode_data_uri(std::string_view uri, const JsonPlace& place) {
     if (!uri.starts_with("data:"))
         return std::nullopt;
-    for (const std::string_view prefix : DATA_PREFIXES)
-        if (uri.starts_with(prefix))
-            return decode_base64(uri.substr(prefix.size()), place);
-    refuse(place, quote_text(uri.substr(0, uri.find(','))) + " is not a data URI of a buffer",
-           "use data:application/octet-stream;base64,");
+    const std::size_t comma = std::min(uri.find(','), uri.size() - 1);
+    if (!uri.substr(0, comma + 1).ends_with(BASE64_MARK))
+        refuse(place, quote_text(uri.substr(0, comma)) + " is not a data URI of a buffer",
+               "use data:application/octet-stream;base64,");
+    return decode_base64(uri.substr(comma + 1), place);
 }
 
 std::vector<unsigned char> decode_image_uri(std::string_view uri, const JsonPlace& place) {

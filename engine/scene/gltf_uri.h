@@ -11,7 +11,7 @@
 
 namespace photonloupe {
 
-// Bytes of a base64 data URI; nothing if the URI is not `data:` at all. Refuses other media types and broken base64.
+// Bytes of a base64 data URI; nothing if the URI is not `data:` at all. Refuses other encodings.
 std::optional<std::vector<unsigned char>> decode_data_uri(std::string_view uri, const JsonPlace& place);
 
 // The same of an image, whatever media type it claims: its bytes tell. `uri` begins with `data:`.

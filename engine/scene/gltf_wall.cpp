@@ -14,7 +14,7 @@
 #include "scene/gltf_materials.h"
 #include "scene/gltf_meshes.h"
 #include "scene/gltf_nodes.h"
-#include "scene/gltf_uri.h"
+#include "scene/gltf_skins.h"
 #include "scene/limits.h"
 
 namespace photonloupe {
@@ -22,8 +22,10 @@ namespace {
 
 void check_version(const JsonPlace& root) {
     const JsonPlace asset = require_member(root, "asset");
-    const JsonPlace version = require_member(asset, "version");
-    const std::string text = read_string(version);
+    const JsonPlace version = find_member(asset, "version");
+    const std::string text = read_string_or(version, "1.0"); // glTF 1 may leave it out
+    if (text.starts_with("1."))
+        refuse(version, "glTF version " + quote_text(text), GLTF_1_REMEDY);
     if (!text.starts_with("2."))
         refuse(version, "glTF version " + quote_text(text), "only glTF 2 is read: export it again");
     const std::string minimum = read_string_or(find_member(asset, "minVersion"), "2.0");
@@ -36,7 +38,7 @@ void check_required_extensions(const JsonPlace& root) {
     for (std::size_t i = 0; i < count_elements(required, MAX_ENTRIES); ++i) {
         const JsonPlace place = get_element(required, i);
         const std::string name = read_string(place);
-        if (!is_known_extension(name))
+        if (!is_known_extension(name) && !is_dispensable_extension(name))
             refuse(place, "the required extension " + quote_text(name) + " is not supported", "export it without");
     }
 }
@@ -81,10 +83,12 @@ ApprovedGltf approve_gltf(std::span<const unsigned char> bytes, const std::files
     result.hash = hash_content(container.json, result.buffers, result.images);
     NodeTargets targets;
     targets.mesh_count = count_elements(find_member(root, "meshes"), MAX_ENTRIES);
+    targets.skin_count = count_elements(find_member(root, "skins"), MAX_ENTRIES);
     targets.camera_count = check_cameras(root, approved);
     targets.light_count = check_lights(root, approved);
-    const std::vector<std::uint64_t> draw_counts = check_nodes(root, targets, approved, result.ignored);
     AccessorTable accessors(root, result.buffers);
+    const std::vector<std::uint64_t> draw_counts = check_nodes(root, targets, accessors, approved, result.ignored);
+    check_skins(root, accessors, approved);
     check_meshes(root, draw_counts, accessors, approved, result.ignored);
     result.columns = accessors.take_columns();
     result.json = approved.dump();

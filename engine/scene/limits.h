@@ -29,6 +29,8 @@ constexpr std::uint64_t MAX_TEXELS = 1ull << 27;
 constexpr std::size_t MAX_NODE_DEPTH = 256;
 // Triangles are 48 bytes, and graphics drivers allow 2 GiB in one allocation: 2^25 · 48 bytes are 1.5 GiB.
 constexpr std::uint64_t MAX_TRIANGLES = 1u << 25;
+// Primitives that nodes and instances draw: each costs about a kilobyte while a scene is loaded.
+constexpr std::uint64_t MAX_OBJECTS = 1u << 20;
 // Beyond this the square of a length, and soon the length itself, leaves the range of 32-bit floats.
 constexpr double MAX_COORDINATE = 1e30;
 

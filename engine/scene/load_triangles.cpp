@@ -12,7 +12,7 @@
 
 #include "core/error.h"
 #include "scene/limits.h"
-#include "scene/primitive_reader.h"
+#include "scene/pose_meshes.h"
 #include "scene/triangle_math.h"
 
 namespace photonloupe {
@@ -24,7 +24,9 @@ constexpr double MAX_OFFSET_IN_HALF_DIAGONALS = 8.0;
 
 struct PlacedPrimitive {
     PrimitiveReader reader;
-    const PlacedNode* node;
+    glm::dmat4 world;
+    NormalTransform normals;               // of `world`
+    const std::vector<glm::dmat4>* joints; // in place of `world`, or nothing
     std::uint32_t object;
 };
 
@@ -41,33 +43,67 @@ glm::dvec3 transform_point(const glm::dmat4& world, const glm::dvec3& point) {
 }
 
 std::vector<PlacedPrimitive> place_primitives(const tinygltf::Model& model, const std::vector<AccessorColumn>& columns,
-                                              const std::vector<PlacedNode>& nodes, Scene& scene, Counts& counts) {
+                                              const std::vector<PlacedNode>& nodes,
+                                              const std::vector<std::vector<glm::dmat4>>& skins, Scene& scene,
+                                              Counts& counts) {
     std::vector<PlacedPrimitive> placed;
-    for (const PlacedNode& node : nodes) {
-        const int mesh_index = model.nodes[node.node].mesh;
-        if (mesh_index < 0)
-            continue;
-        const tinygltf::Mesh& mesh = model.meshes[std::size_t(mesh_index)];
+    const auto place = [&](const PlacedNode& node, const glm::dmat4& world, const std::string& suffix) {
+        const tinygltf::Node& source = model.nodes[node.node];
+        const tinygltf::Mesh& mesh = model.meshes[std::size_t(source.mesh)];
         for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
             const tinygltf::Primitive& primitive = mesh.primitives[i];
             SceneObject object;
-            object.name = name_node(model, node.node, mesh.name, "object");
+            object.name = name_node(model, node.node, mesh.name, "object") + suffix;
             if (mesh.primitives.size() > 1)
                 object.name.append("[").append(std::to_string(i)).append("]");
             object.material =
                 std::uint32_t(primitive.material < 0 ? model.materials.size() : std::size_t(primitive.material));
-            placed.push_back({PrimitiveReader(primitive, columns), &node, std::uint32_t(scene.objects.size())});
+            const PrimitiveReader reader(primitive, columns, source.weights.empty() ? mesh.weights : source.weights);
+            const bool is_skinned = source.skin >= 0 && reader.has_joints();
+            placed.push_back({reader, world, NormalTransform(glm::dmat3(world)),
+                              is_skinned ? &skins[std::size_t(source.skin)] : nullptr,
+                              std::uint32_t(scene.objects.size())});
             scene.objects.push_back(std::move(object));
             counts.without_material += primitive.material < 0;
-            counts.flat_primitives += !placed.back().reader.has_normals();
+            counts.flat_primitives += !reader.has_normals();
         }
+    };
+    for (const PlacedNode& node : nodes) {
+        if (model.nodes[node.node].mesh < 0)
+            continue;
+        const std::vector<glm::dmat4> instances = place_instances(model.nodes[node.node], node.world, columns);
+        for (std::size_t i = 0; i < instances.size(); ++i)
+            place(node, instances[i], instances.size() > 1 ? "#" + std::to_string(i) : "");
     }
     return placed;
 }
 
+[[noreturn]] void refuse_object(const Scene& scene, const PlacedPrimitive& primitive, const std::string& what) {
+    throw SceneError(scene.path.string() + ": object \"" + scene.objects[primitive.object].name + "\" " + what);
+}
+
 [[noreturn]] void refuse_coordinates(const Scene& scene, const PlacedPrimitive& primitive) {
-    throw SceneError(scene.path.string() + ": object \"" + scene.objects[primitive.object].name +
-                     "\" has coordinates beyond 1e30, which 32-bit floats can't compute with; scale the scene down");
+    refuse_object(scene, primitive,
+                  "has coordinates beyond 1e30, which 32-bit floats can't compute with; scale the scene down");
+}
+
+glm::dmat4 find_transform(const PlacedPrimitive& primitive, std::uint32_t vertex, const Scene& scene) {
+    if (!primitive.joints)
+        return primitive.world;
+    const std::optional<glm::dmat4> blended = blend_joints(*primitive.joints, primitive.reader, vertex);
+    if (!blended)
+        refuse_object(scene, primitive,
+                      "has a vertex " + std::to_string(vertex) +
+                          " that is moved by a joint its skin lacks; export it again");
+    return *blended;
+}
+
+NormalTransform find_normal_transform(const PlacedPrimitive& primitive, std::uint32_t vertex, const Scene& scene) {
+    return primitive.joints ? NormalTransform(glm::dmat3(find_transform(primitive, vertex, scene))) : primitive.normals;
+}
+
+glm::dvec3 find_position(const PlacedPrimitive& primitive, std::uint32_t vertex, const Scene& scene) {
+    return transform_point(find_transform(primitive, vertex, scene), primitive.reader.read_position(vertex));
 }
 
 Bounds find_bounds(const std::vector<PlacedPrimitive>& primitives, const Scene& scene) {
@@ -76,7 +112,7 @@ Bounds find_bounds(const std::vector<PlacedPrimitive>& primitives, const Scene& 
     for (const PlacedPrimitive& primitive : primitives)
         for (std::uint32_t i = 0; i < primitive.reader.get_triangle_count(); ++i)
             for (const std::uint32_t vertex : primitive.reader.read_corners(i)) {
-                const glm::dvec3 p = transform_point(primitive.node->world, primitive.reader.read_position(vertex));
+                const glm::dvec3 p = find_position(primitive, vertex, scene);
                 for (int axis = 0; axis < 3; ++axis) {
                     if (!std::isfinite(p[axis]))
                         refuse_coordinates(scene, primitive);
@@ -100,30 +136,24 @@ std::array<double, 3> choose_origin(const Bounds& bounds) {
     return distance_squared > LIMIT * half_diagonal_squared ? center : std::array<double, 3>{};
 }
 
-// Corners in the order that keeps the outside outside when the node mirrors.
-std::array<std::uint32_t, 3> read_turned_corners(const PrimitiveReader& reader, std::uint32_t i, bool is_mirrored) {
-    std::array<std::uint32_t, 3> corners = reader.read_corners(i);
-    if (is_mirrored)
-        std::swap(corners[1], corners[2]);
-    return corners;
-}
-
 class TriangleWriter {
 public:
     TriangleWriter(Scene& scene, Counts& counts, bool has_colors)
         : m_scene(scene), m_counts(counts), m_has_colors(has_colors) {}
 
     void write_primitive(const PlacedPrimitive& primitive) {
-        const NormalTransform transform(glm::dmat3(primitive.node->world));
         for (std::uint32_t i = 0; i < primitive.reader.get_triangle_count(); ++i) {
-            const auto corners = read_turned_corners(primitive.reader, i, transform.is_mirrored());
-            write_triangle(primitive, transform, corners, i);
+            std::array<std::uint32_t, 3> corners = primitive.reader.read_corners(i);
+            // The outside stays outside when a node or its first corner's joints mirror.
+            if (find_normal_transform(primitive, corners[0], m_scene).is_mirrored())
+                std::swap(corners[1], corners[2]);
+            write_triangle(primitive, corners, i);
         }
     }
 
 private:
-    void write_triangle(const PlacedPrimitive& primitive, const NormalTransform& transform,
-                        const std::array<std::uint32_t, 3>& corners, std::uint32_t source) {
+    void write_triangle(const PlacedPrimitive& primitive, const std::array<std::uint32_t, 3>& corners,
+                        std::uint32_t source) {
         std::array<glm::vec3, 3> v;
         for (int i = 0; i < 3; ++i)
             v[std::size_t(i)] = round_position(primitive, corners[std::size_t(i)]);
@@ -138,7 +168,7 @@ private:
         m_scene.triangles.push_back({{v[0], std::bit_cast<float>(primitive.object)},
                                      {v[1], std::bit_cast<float>(object.material)},
                                      {v[2], std::bit_cast<float>(source)}});
-        write_normals(primitive.reader, transform, corners, *geometric);
+        write_normals(primitive, corners, *geometric);
         if (!m_scene.textures.empty())
             write_coordinates(primitive.reader, corners);
         if (m_has_colors)
@@ -146,7 +176,7 @@ private:
     }
 
     glm::vec3 round_position(const PlacedPrimitive& primitive, std::uint32_t vertex) const {
-        const glm::dvec3 p = transform_point(primitive.node->world, primitive.reader.read_position(vertex));
+        const glm::dvec3 p = find_position(primitive, vertex, m_scene);
         glm::vec3 rounded;
         for (int axis = 0; axis < 3; ++axis) {
             const double relative = p[axis] - m_scene.origin[std::size_t(axis)];
@@ -157,12 +187,13 @@ private:
         return rounded;
     }
 
-    void write_normals(const PrimitiveReader& reader, const NormalTransform& transform,
-                       const std::array<std::uint32_t, 3>& corners, const glm::dvec3& geometric) {
+    void write_normals(const PlacedPrimitive& primitive, const std::array<std::uint32_t, 3>& corners,
+                       const glm::dvec3& geometric) {
         std::array<glm::dvec3, 3> normals{geometric, geometric, geometric};
         bool is_turned = false;
-        for (std::size_t i = 0; i < 3 && reader.has_normals(); ++i) {
-            const auto normal = normalize_robustly(transform.apply(reader.read_normal(corners[i])));
+        for (std::size_t i = 0; i < 3 && primitive.reader.has_normals(); ++i) {
+            const NormalTransform transform = find_normal_transform(primitive, corners[i], m_scene);
+            const auto normal = normalize_robustly(transform.apply(primitive.reader.read_normal(corners[i])));
             m_counts.replaced_normals += !normal;
             normals[i] = normal.value_or(geometric);
             is_turned |= glm::dot(normals[i], geometric) < 0;
@@ -235,7 +266,8 @@ void note_counts(const Counts& counts, std::vector<std::string>& notes) {
 void load_triangles(const tinygltf::Model& model, const std::vector<AccessorColumn>& columns,
                     const std::vector<PlacedNode>& nodes, Scene& scene) {
     Counts counts;
-    const std::vector<PlacedPrimitive> primitives = place_primitives(model, columns, nodes, scene, counts);
+    const std::vector<std::vector<glm::dmat4>> skins = pose_joints(model, columns);
+    const std::vector<PlacedPrimitive> primitives = place_primitives(model, columns, nodes, skins, scene, counts);
     scene.bounds = find_bounds(primitives, scene);
     scene.origin = choose_origin(scene.bounds);
     std::size_t triangle_count = 0;

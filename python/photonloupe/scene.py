@@ -202,4 +202,9 @@ def load_scene(path: str | os.PathLike[str]) -> Scene:
     >>> [camera["name"] for camera in scene.cameras]
     ['top', 'view', 'close']
     """
-    return Scene(_engine.load_scene(os.fspath(path)))
+    name = os.fspath(path)
+    try:
+        name.encode()
+    except UnicodeEncodeError:
+        raise _engine.SceneError(f"{name!r}: its name is no UTF-8, which files of scenes need; rename it") from None
+    return Scene(_engine.load_scene(name))

@@ -60,6 +60,8 @@ Json GltfBuilder::finish() const {
     if (!m_buffer.empty())
         whole["buffers"] = Json::array({{{"byteLength", m_buffer.size()},
                                          {"uri", "data:application/octet-stream;base64," + encode_base64(m_buffer)}}});
+    for (const Json& buffer : more_buffers)
+        whole["buffers"].push_back(buffer);
     return whole;
 }
 

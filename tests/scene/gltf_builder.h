@@ -22,6 +22,7 @@ class GltfBuilder {
 public:
     // The document; edit it freely before `finish`.
     Json document{{"asset", {{"version", "2.0"}}}};
+    Json more_buffers = Json::array(); // behind the embedded one
 
     // Each returns the new accessor's index.
     std::size_t add_vectors(const Vectors& vectors);
@@ -44,6 +45,7 @@ public:
     std::size_t add_material(Json material);
 
     const std::string& get_buffer() const { return m_buffer; }
+    std::string& get_buffer() { return m_buffer; }
     // The document with its buffer as a data URI.
     Json finish() const;
 

@@ -280,11 +280,13 @@ TEST(load_scene, coordinates_beyond_the_range_of_floats_are_refused_by_object) {
     EXPECT_CONTAINS(find_refusal(builder), "coordinates beyond 1e30");
 }
 
-TEST(load_scene, only_the_default_scenes_nodes_are_drawn) {
+TEST(load_scene, only_the_default_or_the_first_scenes_nodes_are_drawn) {
     GltfBuilder builder = make_triangle();
     builder.add_triangles({{0, 0, 5}, {1, 0, 5}, {0, 1, 5}});
     builder.document["scenes"] = Json::parse(R"([{"nodes":[0]},{"nodes":[1]}])");
-    EXPECT_EQ(load(builder).triangles.size(), 2u); // no default: all roots
+    const Scene first = load(builder);
+    EXPECT_EQ(first.bounds.hi[2], 0);
+    EXPECT_TRUE(contains(first.report.ignored, "only the first scene 0 of 2 is read"));
     builder.document["scene"] = 1;
     const Scene scene = load(builder);
     ASSERT_EQ(scene.triangles.size(), 1u);
