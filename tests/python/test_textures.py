@@ -325,7 +325,7 @@ def test_a_textured_lamp_sends_what_its_texture_shows(tmp_path: Path) -> None:
     color = radiance * np.array([1.0, 0.5, 0.25]) * decode_srgb(codes[0, 0])
     photons = pl.trace_photons(scene, emitted=1 << 16, store="all", max_bounces=1)
     np.testing.assert_allclose(photons.report["flux"]["emitted"], np.pi * color * half**2, rtol=1e-4)
-    starts = photons.path(range(len(photons)))
+    starts = photons.path_vertices[photons.path_offsets[:-1]]
     assert (starts[:, 0] < 1e-6).all()
     assert (starts[:, 2] < 1e-6).all()
     np.testing.assert_allclose(starts[:, [0, 2]].mean(axis=0), -half / 2, atol=5e-3)
