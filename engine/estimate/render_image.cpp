@@ -22,7 +22,10 @@ constexpr std::uint32_t DIELECTRIC_SLOTS = 4;
 constexpr std::uint64_t CHUNK_SLOTS = 1ull << 17;
 
 gpu::KernelSource name_eye_kernel(const Scene& scene) {
-    return {"estimate/trace_eye.comp", 64, list_scene_defines(scene), {}};
+    std::vector<std::string> defines = list_scene_defines(scene);
+    if (scene.environment)
+        defines.emplace_back("HAS_ENVIRONMENT_MAP");
+    return {"estimate/trace_eye.comp", 64, std::move(defines), {}};
 }
 
 gpu::KernelSource name_light_kernel(const Scene& scene) {
@@ -91,6 +94,7 @@ void Renderer::trace_eye(const FilmScratch& scratch) {
                   {{"geometry", buffers.geometry},
                    {"shading_normals", buffers.normals},
                    {"materials", buffers.materials},
+                   {"environment_map", buffers.environment},
                    {"hit_point", scratch.hit_point},
                    {"hit_normal", scratch.hit_normal},
                    {"hit_weight", scratch.hit_weight},
@@ -103,6 +107,7 @@ void Renderer::light_direct(const FilmScratch& scratch) {
                   {{"geometry", buffers.geometry},
                    {"lights", buffers.lights},
                    {"emitting", buffers.emitting},
+                   {"environment_map", buffers.environment},
                    {"hit_point", scratch.hit_point},
                    {"hit_normal", scratch.hit_normal},
                    {"direct_irradiance", scratch.direct_irradiance}},
@@ -234,7 +239,7 @@ Image render_image(gpu::Device& device, const Scene& scene, const SceneBuffers& 
     renderer.eye.slot_count = renderer.film_push.slot_count = has_glass ? DIELECTRIC_SLOTS : 1;
     renderer.film_push.light_count = static_cast<std::uint32_t>(scene.lights.size());
     for (const shared::Light& light : scene.lights)
-        if (find_kind(light) == shared::LIGHT_ENVIRONMENT)
+        if (find_kind(light) == shared::LIGHT_ENVIRONMENT && !has_image(light))
             renderer.eye.environment += light.intensity;
     const Parts parts = choose_parts(settings.mode, map ? map->store : Store::caustic);
     renderer.film_push.uses_emission = parts.emission;

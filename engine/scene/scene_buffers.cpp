@@ -37,6 +37,8 @@ SceneBuffers upload_scene(gpu::Device& device, const Scene& scene) {
     buffers.materials = gpu::make_buffer(device, scene.materials, "materials");
     buffers.lights = gpu::make_buffer(device, scene.lights, "lights");
     buffers.emitting = gpu::make_buffer(device, scene.emitting, "emitting triangles");
+    buffers.environment = gpu::make_buffer(
+        device, scene.environment ? scene.environment->texels : std::vector<glm::vec4>{}, "environment");
     return buffers;
 }
 
@@ -50,6 +52,8 @@ std::vector<std::string> list_light_defines(const Scene& scene) {
         if (std::any_of(scene.lights.begin(), scene.lights.end(),
                         [&](const shared::Light& light) { return find_kind(light) == kind; }))
             defines.emplace_back(define);
+    if (scene.environment)
+        defines.emplace_back("HAS_ENVIRONMENT_MAP");
     return defines;
 }
 

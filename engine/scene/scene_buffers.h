@@ -12,7 +12,8 @@ struct SceneBuffers {
     gpu::Buffer normals;
     gpu::Buffer materials;
     gpu::Buffer lights;
-    gpu::Buffer emitting; // triangles of area lights
+    gpu::Buffer emitting;    // triangles of area lights
+    gpu::Buffer environment; // EnvironmentMap::texels, or nothing
 };
 
 SceneBuffers upload_scene(gpu::Device& device, const Scene& scene);

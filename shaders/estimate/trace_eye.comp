@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Follows eye paths through mirrors and glass to the diffuse surfaces they see.
-// Inputs: scene. Outputs: per slot hit_point (xyz, w 1: used), hit_normal, hit_weight (rgb: radiance per irradiance);
+// Inputs: scene, environment_map. Outputs: per slot hit_point (xyz, w 1: used), hit_normal, hit_weight (rgb: radiance per irradiance);
 // per sample eye_emission (rgb: emitted radiance seen).
 // Dielectrics split into both directions while slots last, then one is chosen at random.
-// Defines: HAS_DIELECTRIC, HAS_MIRROR, HAS_ABSORPTION.
+// Defines: HAS_DIELECTRIC, HAS_MIRROR, HAS_ABSORPTION, HAS_ENVIRONMENT_MAP.
 #include "shared/prelude.glsl"
 #include "shared/random.h"
 #include "shared/render.h"
 #include "scene/scatter.glsl"
+#ifdef HAS_ENVIRONMENT_MAP
+#include "scene/environment.glsl"
+#endif
 #pragma binding writeonly vec4 hit_point
 #pragma binding writeonly vec4 hit_normal
 #pragma binding writeonly vec4 hit_weight
@@ -115,6 +118,15 @@ bool follow_surface(inout Branch branch, Surface surface, float distance) {
     return true;
 }
 
+// Where nothing is met.
+vec3 see_beyond(vec3 direction) {
+    vec3 radiance = settings.environment.rgb;
+#ifdef HAS_ENVIRONMENT_MAP
+    radiance += see_environment(load_environment(), direction).radiance;
+#endif
+    return radiance;
+}
+
 void main() {
     if (gl_GlobalInvocationID.x >= settings.sample_count) return;
     sample_index = settings.first_sample + gl_GlobalInvocationID.x;
@@ -122,7 +134,7 @@ void main() {
     bool alive = true;
     while (alive) {
         Hit hit = intersect_scene(branch.ray, INFINITY, false);
-        if (hit.t == INFINITY) seen_emission += branch.weight * settings.environment.rgb;
+        if (hit.t == INFINITY) seen_emission += branch.weight * see_beyond(branch.ray.direction);
         alive = hit.t < INFINITY && follow_surface(branch, load_surface(hit), hit.t);
         if (!alive && waiting_count > 0u) {
             --waiting_count;

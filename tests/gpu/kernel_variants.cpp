@@ -19,9 +19,11 @@ const std::vector<std::string> MIRROR{"", "HAS_MIRROR"};
 const std::vector<std::string> DIELECTRIC{"", "HAS_DIELECTRIC"};
 const std::vector<std::string> ABSORPTION{"", "HAS_ABSORPTION"};
 const std::vector<std::string> SPOT{"", "HAS_SPOT_LIGHTS"}, DIRECTIONAL{"", "HAS_DIRECTIONAL_LIGHTS"},
-    AREA{"", "HAS_AREA_LIGHTS"}, ENVIRONMENT{"", "HAS_ENVIRONMENT"};
+    AREA{"", "HAS_AREA_LIGHTS"}, ENVIRONMENT{"", "HAS_ENVIRONMENT", "HAS_ENVIRONMENT\n#define HAS_ENVIRONMENT_MAP"},
+    SEEN{"", "HAS_ENVIRONMENT_MAP"};
 const std::vector<std::string> OTHER_LIGHTS{"", "HAS_SPOT_LIGHTS\n#define HAS_DIRECTIONAL_LIGHTS\n#define "
-                                                "HAS_AREA_LIGHTS\n#define HAS_ENVIRONMENT\n#define HAS_SEVERAL_LIGHTS"};
+                                                "HAS_AREA_LIGHTS\n#define HAS_ENVIRONMENT\n#define "
+                                                "HAS_ENVIRONMENT_MAP\n#define HAS_SEVERAL_LIGHTS"};
 const std::vector<std::string> KERNELS{"KERNEL 0", "KERNEL 1", "KERNEL 2", "KERNEL 3"};
 
 const std::vector<std::string> SURFACE{"HAS_NORMALS", "HAS_NORMALS\n#define FLAT_AXES xz",
@@ -54,7 +56,7 @@ const std::vector<std::string> DESCRIPTORS{"DESCRIPTOR 1", "DESCRIPTOR 2", "DESC
 const std::map<std::string, Factors> FACTORS{
     {"estimate/estimate_irradiance.comp", {KERNELS, {SURFACE[2]}, {"", "ONE_NORMAL"}, {TIES[1]}, SINGLY}},
     {"estimate/light_direct.comp", {SPOT, DIRECTIONAL, AREA, ENVIRONMENT}},
-    {"estimate/trace_eye.comp", {MIRROR, DIELECTRIC, ABSORPTION}},
+    {"estimate/trace_eye.comp", {MIRROR, DIELECTRIC, ABSORPTION, SEEN}},
     {"inspect/count_crossings.comp", {{"", "RAGGED"}}},
     {"photons/choose_brackets.comp", {RANGES}},
     {"photons/count_lefts.comp", {RANGES}},
@@ -81,6 +83,7 @@ const std::map<std::string, Factors> FACTORS{
     {"relax/move_photons.comp", {{"", "HAS_SURFACE"}}},
     {"relax/repel_photons.comp", {SURFACE, LAYERS, PERIODIC, SINGLY, {"", "CARRIED"}, {"", "CONSTRAINED"}}},
     {"trace/shoot_photons.comp", {STORES, EMISSIONS, PATHS, MIRROR, DIELECTRIC, ABSORPTION, OTHER_LIGHTS}},
+    {"trace/sum_balance.comp", {SEEN}},
     {"trace/write_photons.comp", {PATHS}},
 };
 
