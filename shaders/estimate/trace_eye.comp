@@ -66,6 +66,14 @@ void wait_branch(Branch branch) {
     ++waiting_count;
 }
 
+bool survive_roulette(inout Branch branch) {
+    float largest = max(branch.weight.r, max(branch.weight.g, branch.weight.b));
+    if (largest >= SMALL_WEIGHT) return true;
+    if (draw(branch.bounce, 2u) >= largest / SMALL_WEIGHT) return false;
+    branch.weight *= SMALL_WEIGHT / largest;
+    return true;
+}
+
 // Follows both directions when a slot is left for each, else one by its probability.
 void split_dielectric(inout Branch branch, Surface surface) {
     Interface face = meet_dielectric(surface, branch.ray.direction);
@@ -76,7 +84,8 @@ void split_dielectric(inout Branch branch, Surface surface) {
                                 branch.weight * (1.0 - face.reflectance) * tint, branch.bounce);
     bool can_split = used_slots + waiting_count + 2u <= settings.slot_count && face.reflectance > 0.0 && face.reflectance < 1.0;
     if (can_split) {
-        wait_branch(reflected);
+        ++reflected.bounce;
+        if (survive_roulette(reflected)) wait_branch(reflected);
         branch = transmitted;
     } else if (draw(branch.bounce, 0u) < face.reflectance) {
         reflected.weight = branch.weight;
@@ -111,11 +120,7 @@ bool follow_surface(inout Branch branch, Surface surface, float distance) {
     if (!takes_mirror) split_dielectric(branch, surface);
 #endif
     ++branch.bounce;
-    float largest = max(branch.weight.r, max(branch.weight.g, branch.weight.b));
-    if (largest >= SMALL_WEIGHT) return true;
-    if (draw(branch.bounce, 2u) >= largest / SMALL_WEIGHT) return false;
-    branch.weight *= SMALL_WEIGHT / largest;
-    return true;
+    return survive_roulette(branch);
 }
 
 // Where nothing is met.

@@ -13,8 +13,8 @@ import pytest
 
 import photonloupe as pl
 from conftest import write_scene
-from gltf import GltfWriter, make_mirror
-from lit_scenes import Doubles, add_optics, build_panel, load, render_below
+from gltf import GltfWriter, make_glass, make_mirror
+from lit_scenes import Doubles, add_optics, build_ball, build_panel, load, render_below
 
 ENERGY_TOLERANCE = 2e-3
 EXACT = 2e-6
@@ -165,6 +165,17 @@ def test_nothing_shows_before_a_white_sky(tmp_path: Path) -> None:
     at_glass = pl.Camera(position=(0.9, 2.0, 0.6), target=(0.85, 0.3, 0.55), yfov=0.1)
     seen = np.asarray(pl.render(scene, mode="direct", camera=at_glass, width=8, height=8, samples=64))
     np.testing.assert_allclose(seen.mean(axis=(0, 1)), 2.0, rtol=0.02)
+
+
+def test_glass_that_all_light_leaves_is_followed_to_an_end(tmp_path: Path) -> None:
+    def change(writer: GltfWriter) -> None:
+        writer.add_mesh("ball", build_ball(0.25, 1.0, 64), make_glass("glass", 1.5, 0.5))
+
+    scene = pl.load_scene(write_scene(tmp_path, "alone", change, lamp=False, floor=False))
+    scene.add_light("environment", intensity=2.0)
+    camera = pl.Camera(position=(0.9, 1.0, 0.0), target=(0.0, 1.0, 0.0), yfov=0.6)
+    pixels = np.asarray(pl.render(scene, mode="direct", camera=camera, width=32, height=32, samples=16))
+    np.testing.assert_allclose(pixels, 2.0, rtol=0.02)
 
 
 @pytest.mark.parametrize("height", [1, 512])
