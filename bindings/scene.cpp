@@ -45,6 +45,8 @@ nb::list list_lights(const Scene& scene) {
             row["area"] = light.cone.x;
             row["two_sided"] = light.cone.w > 1;
         }
+        if (has_image(light))
+            row["image"] = scene.environment->path.string();
         rows.append(row);
     }
     return rows;

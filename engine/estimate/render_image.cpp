@@ -22,11 +22,13 @@ constexpr std::uint32_t DIELECTRIC_SLOTS = 4;
 constexpr std::uint64_t CHUNK_SLOTS = 1ull << 17;
 
 gpu::KernelSource name_eye_kernel(const Scene& scene) {
-    gpu::KernelSource kernel{"estimate/trace_eye.comp", 64, list_scene_defines(scene), {}};
+    std::vector<std::string> defines = list_scene_defines(scene);
     if (scene.report.has_rough) // it shows lights
         for (std::string& define : list_light_defines(scene))
-            kernel.defines.push_back(std::move(define));
-    return kernel;
+            defines.push_back(std::move(define));
+    else if (scene.environment)
+        defines.emplace_back("HAS_ENVIRONMENT_MAP");
+    return {"estimate/trace_eye.comp", 64, std::move(defines), {}};
 }
 
 gpu::KernelSource name_light_kernel(const Scene& scene) {
@@ -235,7 +237,7 @@ Image render_image(gpu::Device& device, const Scene& scene, const SceneBuffers& 
     renderer.eye.slot_count = renderer.film_push.slot_count = has_glass ? DIELECTRIC_SLOTS : 1;
     renderer.film_push.light_count = static_cast<std::uint32_t>(scene.lights.size());
     for (const shared::Light& light : scene.lights)
-        if (find_kind(light) == shared::LIGHT_ENVIRONMENT)
+        if (find_kind(light) == shared::LIGHT_ENVIRONMENT && !has_image(light))
             renderer.eye.environment += light.intensity;
     renderer.eye.environment.w = std::bit_cast<float>(renderer.film_push.light_count);
     const Parts parts = choose_parts(settings.mode, map ? map->store : Store::caustic);

@@ -102,7 +102,7 @@ void read_pixels(Imf::InputFile& file, Image& image) {
         image.rgb[i + 1] = image.rgb[i + 2] = image.rgb[i];
 }
 
-Image decode_exr(const std::vector<unsigned char>& bytes) {
+Image decode(const std::vector<unsigned char>& bytes) {
     // Met while the header is parsed, before tables in proportion to the height are allocated.
     Imf::Header::setMaxImageSize(int(MAX_IMAGE_SIDE), int(MAX_IMAGE_SIDE));
     Imf::Header::setMaxTileSize(int(MAX_IMAGE_SIDE), int(MAX_IMAGE_SIDE));
@@ -145,9 +145,12 @@ void write_exr(const std::filesystem::path& path, const Image& image) {
 }
 
 Image read_exr(const std::filesystem::path& path) {
-    const std::vector<unsigned char> bytes = read_image_file(path.string());
+    return decode_exr(path, read_image_file(path.string()));
+}
+
+Image decode_exr(const std::filesystem::path& path, const std::vector<unsigned char>& bytes) {
     try {
-        return decode_exr(bytes);
+        return decode(bytes);
     } catch (const std::exception& error) {
         throw Error(path.string() + ": can't be read as EXR: " + error.what() + "; give an EXR file with R, G and B");
     }

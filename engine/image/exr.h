@@ -13,5 +13,7 @@ void write_exr(const std::filesystem::path& path, const Image& image);
 
 // Reads R, G and B, or Y as gray, of type half, float or uint. Throws Error.
 Image read_exr(const std::filesystem::path& path);
+// The same from a file's bytes; `path` is what messages call it.
+Image decode_exr(const std::filesystem::path& path, const std::vector<unsigned char>& bytes);
 
 } // namespace photonloupe

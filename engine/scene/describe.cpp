@@ -76,7 +76,8 @@ std::string describe_light(const shared::Light& light) {
              << light.cone.x << " m²" << (light.cone.w > 1 ? ", both sides" : "");
         break;
     case shared::LIGHT_ENVIRONMENT:
-        text << format_vector(light.intensity) << " W/(m² sr) from all around";
+        text << format_vector(light.intensity) << " W/(m² sr) from all around"
+             << (has_image(light) ? ", the mean of an image" : "");
         break;
     default:
         text << format_vector(light.intensity, 4 * std::numbers::pi) << " W";

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/json_place.h"
+#include "image/exr.h"
 #include "scene/bvh.h"
 #include "scene/emitting_objects.h"
 #include "scene/limits.h"
@@ -30,8 +31,9 @@ constexpr double KEY_IRRADIANCE = 3.0; // W/m²
 constexpr double FLOOR_REACH = 4.0, FLOOR_GAP = 1e-3;
 constexpr float FLOOR_ALBEDO = 0.5f;
 constexpr std::size_t MOST_ADDITIONS = 256;
-constexpr std::string_view MEMBERS[] = {"add",   "kind", "position", "direction", "intensity",
-                                        "color", "size", "cone",     "y"};
+constexpr std::string_view MEMBERS[] = {"add",  "kind", "position", "direction", "intensity", "color",
+                                        "size", "cone", "y",        "image",     "hash",      "rotation"};
+constexpr double TURN = 6.283185307179586; // radians
 
 dvec3 read_vector(const JsonPlace& place, std::vector<double> fallback, NumberRange range) {
     const std::vector<double> values = read_numbers_or(place, std::move(fallback), range);
@@ -145,6 +147,34 @@ void add_key_light(Scene& scene) {
                  "key light");
 }
 
+// The addition is written down with the hash of the file, so that it is known again.
+void add_environment(Scene& scene, const JsonPlace& addition, shared::Light& light) {
+    light.position_kind = {0, 0, 0, std::bit_cast<float>(shared::LIGHT_ENVIRONMENT)};
+    const JsonPlace image = find_member(addition, "image");
+    if (!image.value)
+        return;
+    if (scene.environment)
+        refuse(addition, "the scene has an environment that an image says", "join the images in one");
+    const std::filesystem::path path = read_string(image);
+    const double rotation = read_number_or(find_member(addition, "rotation"), 0.0, {-TURN, TURN});
+    const std::vector<unsigned char> bytes = read_image_file(path.string());
+    const std::string hash = hash_bytes({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    if (read_string_or(find_member(addition, "hash"), hash) != hash)
+        throw SceneError(path.string() + ": the image has changed since it was added to " + scene.path.string() +
+                         "; add it anew, or bring the old one back");
+    const auto map = std::make_shared<const EnvironmentMap>(
+        make_environment_map(path, decode_exr(path, bytes), glm::dvec3(light.intensity), rotation));
+    if (map->negative_count > 0)
+        scene.report.notes.push_back(path.string() + ": " + std::to_string(map->negative_count) +
+                                     " negative values count as 0");
+    light.intensity = glm::vec4(glm::vec3(map->mean), static_cast<float>(map->mean_largest));
+    light.cone.x = 1.0f;
+    scene.environment = map;
+    Json known = *addition.value;
+    known["hash"] = hash;
+    scene.additions.back() = known.dump();
+}
+
 void add_light(Scene& scene, const JsonPlace& addition) {
     const std::string kind = read_string(require_member(addition, "kind"));
     if (kind == "auto")
@@ -171,7 +201,7 @@ void add_light(Scene& scene, const JsonPlace& addition) {
         light.position_kind.w = std::bit_cast<float>(shared::LIGHT_SPOT);
         light.cone = {find_cap(angles[0]), find_cap(angles[1]), 0.0f, 0.0f};
     } else if (kind == "environment") {
-        light.position_kind = {0, 0, 0, std::bit_cast<float>(shared::LIGHT_ENVIRONMENT)};
+        add_environment(scene, addition, light);
     } else if (kind != "point") {
         refuse(find_member(addition, "kind"), quote_text(kind) + " is no kind of light that is modeled",
                "use point, spot, directional, area, environment or auto");
@@ -207,7 +237,6 @@ Scene add_to_scene(const Scene& scene, const std::string& text) {
             refuse(addition, quote_text(member) + " is nothing that an addition has", "leave it out");
     Scene larger = scene;
     larger.additions.push_back(text);
-    larger.hash = hash_bytes(scene.hash + text);
     const std::string what = read_string(require_member(addition, "add"));
     if (what == "light")
         add_light(larger, addition);
@@ -215,6 +244,7 @@ Scene add_to_scene(const Scene& scene, const std::string& text) {
         add_floor(larger, addition);
     else
         refuse(find_member(addition, "add"), quote_text(what) + " cannot be added", "add a light or a floor");
+    larger.hash = hash_bytes(scene.hash + larger.additions.back());
     return larger;
 }
 

@@ -5,9 +5,11 @@
 #include <array>
 #include <bit>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "scene/environment_map.h"
 #include "shared/scene.h"
 
 namespace photonloupe {
@@ -69,7 +71,8 @@ struct Scene {
     std::vector<SceneObject> objects;
     std::vector<shared::Light> lights;
     std::vector<std::string> light_names;
-    std::vector<shared::EmittingTriangle> emitting; // of area lights
+    std::vector<shared::EmittingTriangle> emitting;    // of area lights
+    std::shared_ptr<const EnvironmentMap> environment; // none, or an image; shared by copies of the scene
     std::vector<Camera> cameras;
     SceneReport report;
 };
@@ -93,6 +96,10 @@ const char* name_kind(const shared::Light& light);
 
 // "2 point lights and 1 area light".
 std::string count_lights(const Scene& scene);
+
+inline bool has_image(const shared::Light& light) {
+    return find_kind(light) == shared::LIGHT_ENVIRONMENT && light.cone.x > 0;
+}
 
 inline bool is_two_sided(const shared::Material& material) {
     return material.roughness_thin.z > 0;

@@ -53,6 +53,8 @@ SceneBuffers upload_scene(gpu::Device& device, const Scene& scene) {
     buffers.atlas = gpu::make_buffer(device, scene.atlas, "texture atlas");
     buffers.corner_coordinates = gpu::make_buffer(device, scene.corner_coordinates, "texture coordinates");
     buffers.corner_colors = gpu::make_buffer(device, scene.corner_colors, "vertex colors");
+    buffers.environment = gpu::make_buffer(
+        device, scene.environment ? scene.environment->texels : std::vector<glm::vec4>{}, "environment");
     return buffers;
 }
 
@@ -62,6 +64,7 @@ std::vector<gpu::Binding> SceneBuffers::bind(std::initializer_list<gpu::Binding>
                                        {"materials", materials},
                                        {"lights", lights},
                                        {"emitting", emitting},
+                                       {"environment_map", environment},
                                        {"paints", paints},
                                        {"textures", textures},
                                        {"atlas", atlas},
@@ -82,6 +85,8 @@ std::vector<std::string> list_light_defines(const Scene& scene) {
         if (std::any_of(scene.lights.begin(), scene.lights.end(),
                         [&](const shared::Light& light) { return find_kind(light) == kind; }))
             defines.emplace_back(define);
+    if (scene.environment)
+        defines.emplace_back("HAS_ENVIRONMENT_MAP");
     return defines;
 }
 

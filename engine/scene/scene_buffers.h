@@ -15,7 +15,8 @@ struct SceneBuffers {
     gpu::Buffer normals;
     gpu::Buffer materials;
     gpu::Buffer lights;
-    gpu::Buffer emitting; // triangles of area lights
+    gpu::Buffer emitting;    // triangles of area lights
+    gpu::Buffer environment; // EnvironmentMap::texels, or nothing
     gpu::Buffer paints, textures, atlas;
     gpu::Buffer corner_coordinates, corner_colors;
 

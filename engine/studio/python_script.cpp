@@ -75,7 +75,9 @@ std::string write_addition(const std::string& addition) {
     const auto find = [&](const char* name) { return told.is_object() && told.contains(name) ? told[name] : Text(); };
     const bool is_light = find("add") == "light";
     std::string arguments = is_light && find("kind").is_string() ? quote(find("kind").get<std::string>()) : "";
-    for (const char* name : {"position", "direction", "intensity", "color", "size", "cone", "y"})
+    if (const Text image = find("image"); image.is_string())
+        arguments += (arguments.empty() ? "image=" : ", image=") + quote(image.get<std::string>());
+    for (const char* name : {"rotation", "position", "direction", "intensity", "color", "size", "cone", "y"})
         if (const Text value = find(name); value.is_number() || value.is_array())
             arguments += (arguments.empty() ? "" : ", ") + std::string(name) + "=" + value.dump();
     return (is_light ? "scene.add_light(" : "scene.add_floor(") + arguments + ")\n";

@@ -8,6 +8,7 @@ namespace photonloupe::studio {
 
 constexpr std::size_t LONGEST_TEXT = 1u << 20; // of a script, as the compiler takes it
 constexpr std::size_t LONGEST_NAME = 256;
+constexpr std::size_t LONGEST_ADDITION = 5000; // a path and what is told of a light
 constexpr std::size_t MOST_ENTRIES = 256;
 constexpr double LARGEST = 0x1p100; // a float too: rounding must not lead beyond it
 
@@ -15,7 +16,7 @@ template <class Archive>
 void visit(Archive& archive, TraceState& trace) {
     archive.path("scene", trace.scene);
     archive.path("map", trace.map);
-    archive.field("additions", trace.additions, MOST_ENTRIES, 4 * LONGEST_NAME);
+    archive.field("additions", trace.additions, MOST_ENTRIES, LONGEST_ADDITION);
     archive.settings(list_settings<TraceSettings>(trace));
 }
 

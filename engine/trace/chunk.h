@@ -18,6 +18,7 @@ struct ChunkScratch {
     gpu::Buffer summaries;
     gpu::Buffer deposited_flux;
     gpu::Buffer lost_flux;
+    gpu::Buffer emitted_flux; // where an image gives each path its own
     gpu::Buffer position;
     gpu::Buffer normal;
     gpu::Buffer power;
@@ -33,7 +34,8 @@ std::uint32_t count_slots(const Scene& scene, const TraceSettings& settings);
 // The largest chunk (a power of two) whose scratch stays within a storage range.
 std::uint32_t find_largest_chunk(const gpu::DeviceLimits& limits, std::uint32_t slot_count);
 
-ChunkScratch allocate_chunk(gpu::Device& device, std::uint32_t size, std::uint32_t slot_count, Emission emission);
+ChunkScratch allocate_chunk(gpu::Device& device, std::uint32_t size, std::uint32_t slot_count, Emission emission,
+                            bool has_image);
 
 // The order in which a chunk's lanes take its emitted indices: neighbours in the Sobol net's elementary intervals
 // follow each other, so that lanes that run together follow similar rays. Owen scrambling and a chunk's offset permute

@@ -41,7 +41,7 @@ shared::LightEmission describe_emission(const shared::Light& light, const Emissi
     emission.axis_sides = glm::vec4(glm::vec3(frame.axis), static_cast<float>(frame.sides));
     emission.cone = {static_cast<float>(frame.inner), static_cast<float>(frame.outer), 0.0f, 0.0f};
     if (frame.kind == shared::LIGHT_ENVIRONMENT)
-        emission.cone = {static_cast<float>(frame.disc), static_cast<float>(frame.launch), 0.0f, 0.0f};
+        emission.cone = {static_cast<float>(frame.disc), static_cast<float>(frame.launch), light.cone.x, 0.0f};
     if (frame.kind == shared::LIGHT_AREA) {
         emission.first_row.z = std::bit_cast<std::uint32_t>(light.cone.y);
         emission.first_row.w = std::bit_cast<std::uint32_t>(light.cone.z);
@@ -77,7 +77,8 @@ EmitterTable build_emitters(const Scene& scene, Store store) {
         shared::LightEmission emission = describe_emission(light, frame);
         append_projection(table, map, emission);
         const double measure = frame.find_measure(light) * map.find_share();
-        powers.push_back(glm::dvec3(light.intensity) * measure);
+        // Of an image, photons carry all of the largest channel's radiance, and of the others what their texel has.
+        powers.push_back((has_image(light) ? glm::dvec3(light.intensity.w) : glm::dvec3(light.intensity)) * measure);
         total += find_largest(powers.back());
         if (frame.kind == shared::LIGHT_POINT || frame.kind == shared::LIGHT_SPOT)
             table.solid_angle += measure;

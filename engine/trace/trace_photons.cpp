@@ -50,6 +50,8 @@ public:
         m_kernels.shoot.defines = list_defines();
         if (settings.paths)
             m_kernels.write.defines.emplace_back("RECORD_PATHS");
+        if (scene.environment)
+            m_kernels.sum.defines.emplace_back("HAS_ENVIRONMENT_MAP");
     }
 
     TracedPhotons run(const Progress& progress);
@@ -143,7 +145,7 @@ void Tracer::choose_chunk(double milliseconds) {
         size = std::min(2 * size, largest); // aligned, so that the lane order keeps its meaning
     if (size != m_scratch.size) {
         m_scratch = {}; // freed before the larger one is asked for
-        m_scratch = allocate_chunk(m_device, size, m_slot_count, m_settings.emission);
+        m_scratch = allocate_chunk(m_device, size, m_slot_count, m_settings.emission, m_scene.environment != nullptr);
     }
     const std::uint64_t left = m_settings.emitted ? *m_settings.emitted - m_report.emitted : size;
     m_push.first = static_cast<std::uint32_t>(m_report.emitted);
@@ -167,6 +169,7 @@ double Tracer::shoot() {
                                       {"summaries", m_scratch.summaries},
                                       {"deposited_flux", m_scratch.deposited_flux},
                                       {"lost_flux", m_scratch.lost_flux},
+                                      {"emitted_flux", m_scratch.emitted_flux},
                                       {"scratch_position", m_scratch.position},
                                       {"scratch_normal", m_scratch.normal},
                                       {"scratch_power", m_scratch.power}}),
@@ -250,6 +253,7 @@ void Tracer::write(std::uint32_t kept, const glm::uvec2& added) {
                       {{"summaries", m_scratch.summaries},
                        {"deposited_flux", m_scratch.deposited_flux},
                        {"lost_flux", m_scratch.lost_flux},
+                       {"emitted_flux", m_scratch.emitted_flux},
                        {"emitters", m_emitters},
                        {"balance", m_scratch.balance}},
                       m_push, (kept + shared::PATHS_PER_BLOCK - 1) / shared::PATHS_PER_BLOCK);

@@ -7,6 +7,7 @@ import math
 import operator
 import sys
 from collections.abc import Iterable, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -43,6 +44,14 @@ def check_choice(name: str, value: Any, choices: Iterable[str]) -> str:
     if value not in known:
         raise ArgumentError(f"{name} must be one of {', '.join(known)}, not {value!r}")
     return str(value)
+
+
+def check_path(name: str, value: Any) -> Path:
+    """Return `value` as a path, or raise `ArgumentError`."""
+    try:
+        return Path(value)
+    except TypeError:
+        raise ArgumentError(f"{name} must be the path of a file, not {value!r}") from None
 
 
 def check_size(size: Sequence[int], low: int, high: int) -> tuple[int, int]:

@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from photonloupe import _engine
-from photonloupe.checks import check_choice, check_number, check_vector
+from photonloupe.checks import check_choice, check_number, check_path, check_vector
+from photonloupe.errors import ArgumentError
 
 _LARGEST = 1e30  # of a coordinate or a power
 
@@ -90,34 +91,43 @@ class Scene:
         color: ArrayLike = (1.0, 1.0, 1.0),
         size: ArrayLike = (1.0, 1.0),
         cone: ArrayLike = (0.0, math.pi / 4.0),
+        image: str | os.PathLike[str] | None = None,
+        rotation: float = 0.0,
     ) -> None:
         """Add a light to what the file holds; photon maps and pictures made before stay as they are.
 
         Parameters
         ----------
         kind
-            ``"point"``, ``"spot"``, ``"directional"``, ``"area"`` or ``"environment"``, the same from all around;
-            ``"auto"``: a point light above and before the
-            bounds, of which nothing else is asked.
+            ``"point"``, ``"spot"``, ``"directional"``, ``"area"`` or ``"environment"``, light from all around, the
+            same everywhere or as an image says; ``"auto"``: a point light above and before the bounds, of which
+            nothing else is asked.
         position
             (3,) m; of an area light the middle.
         direction
             (3,), where a spot, directional or area light shines.
         intensity
-            On the axis: W/sr; directional: W/m² across the light; area, environment: radiance, W/(m²·sr).
+            On the axis: W/sr; directional: W/m² across the light; area, environment: radiance, W/(m²·sr), of an image
+            the factor that makes it so.
         color
             (3,) factors of the channels.
         size
             (2,) m, sides of an area light.
         cone
             (2,) radians from a spot's axis: where it begins to fade, and where it is dark, up to π/2.
+        image
+            Of an environment: an equirectangular EXR file, twice as wide as high, at most 8192 × 4096. Its upper border
+            is +y, its middle +x, and what is right of the middle lies towards +z; each texel is one radiance. Negative
+            values count as 0. Maps and sessions keep the path and a hash of the file, and refuse it once it changed.
+        rotation
+            Radians the image is turned about y, counter-clockwise seen from above, -2π to 2π.
 
         Raises
         ------
         ArgumentError
             If a value is out of range.
         SceneError
-            If the direction is zero, or the cone is inside out.
+            If the direction is zero, the cone is inside out, or the image is black, not finite, or of another shape.
 
         Examples
         --------
@@ -136,7 +146,14 @@ class Scene:
             "size": check_vector("size", size, 1e-30, _LARGEST, width=2),
             "cone": check_vector("cone", cone, 0.0, math.pi / 2.0, width=2),
         }
-        self.restore([{"add": "light", **{name: told[name] for name in ("kind", *LIGHTS[kind])}}])
+        names = ("kind", *LIGHTS[kind])
+        if image is not None:
+            if kind != "environment":
+                raise ArgumentError(f'image is what an environment shows, not a {kind} light; say kind="environment"')
+            told["image"] = str(check_path("image", image).absolute())
+            told["rotation"] = check_number("rotation", rotation, -2.0 * math.pi, 2.0 * math.pi)
+            names = (*names, "image", "rotation")
+        self.restore([{"add": "light", **{name: told[name] for name in names}}])
 
     def add_floor(self, y: float | None = None) -> None:
         """Add a diffuse square of albedo 0.5 below the scene, four times as wide.

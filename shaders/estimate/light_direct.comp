@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Irradiance that lights send straight to each eye hit; every surface, glass too, blocks it (METHODS §0). Area lights by
 // one point of theirs for each sample of a pixel, spread over their area by the Sobol sequence.
-// Inputs: scene, lights, emitting, hit_point, hit_normal. Output: direct_irradiance.
-// Defines: HAS_SPOT_LIGHTS, HAS_DIRECTIONAL_LIGHTS, HAS_AREA_LIGHTS, HAS_ENVIRONMENT; HAS_ALPHA, HAS_TEXTURES, HAS_VERTEX_COLORS.
+// Inputs: scene, lights, emitting, environment_map, hit_point, hit_normal. Output: direct_irradiance.
+// Defines: HAS_SPOT_LIGHTS, HAS_DIRECTIONAL_LIGHTS, HAS_AREA_LIGHTS, HAS_ENVIRONMENT, HAS_ENVIRONMENT_MAP; HAS_ALPHA,
+// HAS_TEXTURES, HAS_VERTEX_COLORS.
 #include "shared/prelude.glsl"
 #include "shared/random.h"
 #include "shared/render.h"
 #include "scene/coverage.glsl"
 #ifdef HAS_AREA_LIGHTS
 #include "scene/emitting.glsl"
+#endif
+#ifdef HAS_ENVIRONMENT_MAP
+#include "scene/environment.glsl"
 #endif
 #include "estimate/light_beams.glsl"
 #pragma binding texel hit_point
@@ -44,9 +48,28 @@ vec3 light_area(Light light, vec3 point, vec3 normal, vec3 u) {
 
 #endif
 
+#ifdef HAS_ENVIRONMENT_MAP
+const float BY_IMAGE = 0.5; // share of directions
+
+// By one direction, drawn from the image or cosine-weighted, and weighed by the density of both together.
+vec3 light_by_image(vec3 point, vec3 normal, vec2 u) {
+    EnvironmentHeader sky = load_environment();
+    EnvironmentPoint from;
+    if (u.x < BY_IMAGE) from = sample_environment(sky, uvec2(vec2(u.x / BY_IMAGE, u.y) * 4294967296.0));
+    else from = see_environment(sky, sample_cosine(normal, (u.x - BY_IMAGE) / (1.0 - BY_IMAGE), u.y));
+    float cosine = dot(from.direction, normal);
+    if (cosine <= 0.0) return vec3(0.0);
+    float density = BY_IMAGE * from.largest / sky.whole + (1.0 - BY_IMAGE) * cosine / PI;
+    return from.radiance * (cosine / density * pass_scene(Ray(point, from.direction), INFINITY));
+}
+#endif
+
 #ifdef HAS_ENVIRONMENT
 // By one direction, cosine-weighted.
 vec3 light_around(Light light, vec3 point, vec3 normal, vec2 u) {
+#ifdef HAS_ENVIRONMENT_MAP
+    if (light.cone.x > 0.0) return light_by_image(point, normal, u);
+#endif
     vec3 direction = sample_cosine(normal, u.x, u.y);
     return PI * light.intensity.rgb * pass_scene(Ray(point, direction), INFINITY);
 }

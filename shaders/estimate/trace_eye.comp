@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Follows eye paths through mirrors and glass to the diffuse surfaces they see.
-// Inputs: scene. Outputs: per slot hit_point (xyz, w 1: used), hit_normal, hit_weight (rgb: radiance per irradiance);
+// Inputs: scene, environment_map. Outputs: per slot hit_point (xyz, w 1: used), hit_normal, hit_weight (rgb: radiance per irradiance);
 // per sample eye_emission (rgb: emitted radiance seen).
 // Dielectrics split into both directions while slots last, then one is chosen at random.
 // Rough surfaces send each path on one way, and show point, spot and directional lights themselves (lights).
 // Defines: HAS_DIELECTRIC, HAS_MIRROR, HAS_ROUGH (then also those of lights), HAS_ABSORPTION, HAS_TEXTURES,
-// HAS_VERTEX_COLORS, HAS_ALPHA.
+// HAS_VERTEX_COLORS, HAS_ALPHA, HAS_ENVIRONMENT_MAP.
 #include "shared/prelude.glsl"
 #include "shared/random.h"
 #include "shared/render.h"
 #include "scene/scatter.glsl"
 #ifdef HAS_ROUGH
 #include "estimate/light_beams.glsl"
+#endif
+#ifdef HAS_ENVIRONMENT_MAP
+#include "scene/environment.glsl"
 #endif
 #pragma binding writeonly vec4 hit_point
 #pragma binding writeonly vec4 hit_normal
@@ -87,6 +90,14 @@ void wait_branch(Branch branch) {
     ++waiting_count;
 }
 
+bool survive_roulette(inout Branch branch) {
+    float largest = max(branch.weight.r, max(branch.weight.g, branch.weight.b));
+    if (largest >= SMALL_WEIGHT) return true;
+    if (draw(branch.bounce, 2u) >= largest / SMALL_WEIGHT) return false;
+    branch.weight *= SMALL_WEIGHT / largest;
+    return true;
+}
+
 // Follows both directions when a slot is left for each, else one by its probability.
 void split_dielectric(inout Branch branch, Surface surface) {
     Interface face = meet_dielectric(surface, branch.ray.direction, choose_facet(branch.bounce));
@@ -97,7 +108,8 @@ void split_dielectric(inout Branch branch, Surface surface) {
                                 branch.weight * (1.0 - face.reflectance) * tint, branch.bounce);
     bool can_split = used_slots + waiting_count + 2u <= settings.slot_count && face.reflectance > 0.0 && face.reflectance < 1.0;
     if (can_split) {
-        wait_branch(reflected);
+        ++reflected.bounce;
+        if (survive_roulette(reflected)) wait_branch(reflected);
         branch = transmitted;
     } else if (draw(branch.bounce, 0u) < face.reflectance) {
         reflected.weight = branch.weight * face.reflected_share;
@@ -151,11 +163,16 @@ bool follow_surface(inout Branch branch, Surface surface, float distance) {
     if (!takes_mirror) split_dielectric(branch, surface);
 #endif
     ++branch.bounce;
-    float largest = max(branch.weight.r, max(branch.weight.g, branch.weight.b));
-    if (largest >= SMALL_WEIGHT) return true;
-    if (draw(branch.bounce, 2u) >= largest / SMALL_WEIGHT) return false;
-    branch.weight *= SMALL_WEIGHT / largest;
-    return true;
+    return survive_roulette(branch);
+}
+
+// Where nothing is met.
+vec3 see_beyond(vec3 direction) {
+    vec3 radiance = settings.environment.rgb;
+#ifdef HAS_ENVIRONMENT_MAP
+    radiance += see_environment(load_environment(), direction).radiance;
+#endif
+    return radiance;
 }
 
 void main() {
@@ -165,7 +182,7 @@ void main() {
     bool alive = true;
     while (alive) {
         Hit hit = meet_scene(branch.ray, choose_coverage(branch.bounce));
-        if (hit.t == INFINITY) seen_emission += branch.weight * settings.environment.rgb;
+        if (hit.t == INFINITY) seen_emission += branch.weight * see_beyond(branch.ray.direction);
         alive = hit.t < INFINITY && follow_surface(branch, load_surface(hit), hit.t);
         if (!alive && waiting_count > 0u) {
             --waiting_count;

@@ -25,7 +25,7 @@ struct EyeSettings {
     uint seed;
     uint slot_count;    // diffuse hits one sample may have
     uint max_bounces;
-    vec4 environment;   // rgb radiance beyond everything, w the number of lights as bits
+    vec4 environment;   // rgb radiance beyond everything that no image says, w the number of lights as bits
 };
 
 struct FilmSettings {

@@ -77,13 +77,13 @@ const uint LIGHT_POINT = 0u;
 const uint LIGHT_SPOT = 1u;
 const uint LIGHT_DIRECTIONAL = 2u;
 const uint LIGHT_AREA = 3u;
-const uint LIGHT_ENVIRONMENT = 4u; // the same from all around
+const uint LIGHT_ENVIRONMENT = 4u; // from all around
 
 struct Light {
     vec4 position_kind; // xyz position (area: the middle), w kind as bits (LIGHT_POINT …)
-    vec4 intensity;     // rgb radiant intensity in W/sr; directional: irradiance, W/m²; area, environment: radiance, W/(m² sr); w unused
+    vec4 intensity;     // rgb radiant intensity in W/sr; directional: irradiance, W/m²; area, environment: radiance, W/(m² sr), of an image its mean; w: mean of the image's largest channel
     vec4 direction;     // xyz unit, where a spot or directional light shines; w unused
-    vec4 cone;          // spot: 1 - cos of the inner and the outer angle; area: m², first emitting triangle and their number as bits, sides that shine
+    vec4 cone;          // spot: 1 - cos of the inner and the outer angle; area: m², first emitting triangle and their number as bits, sides that shine; environment: x 1: an image says it
 };
 
 // A triangle of an area light, or a part of one that a texture lights unevenly.
@@ -109,6 +109,17 @@ struct SceneHeader {
     uint pad1;
     uint pad2;
 };
+
+// First texel of an environment's image (shaders/scene/environment.glsl).
+struct EnvironmentHeader {
+    uint width;
+    uint height;
+    float turn;  // azimuth of the first column, as a share of a turn
+    float whole; // of the largest channel's radiance over all directions, W/m²
+};
+
+// Cumulative shares are fractions of this many bits: as floats they are neither infinite nor NaN.
+const uint ENVIRONMENT_FRACTION_BITS = 30u;
 
 SHARED_END
 

@@ -59,7 +59,7 @@ struct LightEmission {
     vec4 u_axis;        // xyz: EmissionFrame's u, axis and v
     vec4 v_axis;
     vec4 axis_sides;    // area: w sides that shine
-    vec4 cone;          // spot: xy 1 - cos of the inner and the outer angle; environment: radius of the discs of starts, their distance
+    vec4 cone;          // spot: xy 1 - cos of the inner and the outer angle; environment: radius of the discs of starts, their distance, z 1: an image says it
 };
 
 // One path's end: outcome, recorded vertices, photons stored, vertices of the stored photons' paths together.

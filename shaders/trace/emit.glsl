@@ -5,6 +5,9 @@
 #ifdef HAS_AREA_LIGHTS
 #include "scene/emitting.glsl"
 #endif
+#ifdef HAS_ENVIRONMENT_MAP
+#include "scene/environment.glsl"
+#endif
 
 struct Emission {
     uint light;
@@ -98,14 +101,36 @@ void emit_area(inout Emission emission, LightEmission light, Place place, uint i
 }
 #endif
 
-// On a disc across the direction, before everything.
+#ifdef HAS_ENVIRONMENT_MAP
+// From where the image is bright, by the square's rows and columns; its color, by its largest channel.
+void face_image(inout Emission emission, uint index) {
+    EnvironmentPoint from = sample_environment(load_environment(), uvec2(sample_emission(index, 0u), sample_emission(index, 1u)));
+    emission.direction = -from.direction;
+    emission.flux *= from.radiance / from.largest;
+}
+#endif
+
+// Farther away than so many radii of the discs, places across the direction are rounded visibly.
+const float FAR_START = 64.0;
+// Share of the way that is added so that the start lies before what is in the way.
+const float PAST_BLOCKER = 1e-3;
+
+// On a disc across the direction, before everything. Where something lies far away, all that is specular lies in the
+// discs' ball: light starts before the ball, or before what blocks the way to it, where it ends.
 void start_around(inout Emission emission, LightEmission light, uint index) {
     float s, c;
     sin_cos(2.0 * PI * to_unit_float(sample_emission(index, 4u)), s, c);
     float radius = light.cone.x * sqrt(to_unit_float(sample_emission(index, 3u)));
     vec3 a, b;
     build_basis(emission.direction, a, b);
-    emission.origin += radius * (c * a + s * b) - light.cone.y * emission.direction;
+    emission.origin += radius * (c * a + s * b);
+    float distance = light.cone.y;
+    if (distance > FAR_START * light.cone.x) {
+        vec3 near = emission.origin - light.cone.x * emission.direction;
+        float blocked = intersect_scene(Ray(near, -emission.direction), INFINITY, false).t;
+        distance = light.cone.x * (1.0 + PAST_BLOCKER) + (blocked < INFINITY ? blocked * (1.0 + PAST_BLOCKER) : 0.0);
+    }
+    emission.origin -= distance * emission.direction;
 }
 
 // Kinds other than point lights; of those nothing but what the scene has is compiled.
@@ -121,7 +146,13 @@ void emit_otherwise(inout Emission emission, LightEmission light, Place place, u
     }
 #endif
 #ifdef HAS_ENVIRONMENT
-    if (kind == LIGHT_ENVIRONMENT) start_around(emission, light, index);
+    if (kind == LIGHT_ENVIRONMENT) {
+        emission.direction = -emission.direction; // from there
+#ifdef HAS_ENVIRONMENT_MAP
+        if (light.cone.z > 0.0) face_image(emission, index);
+#endif
+        start_around(emission, light, index);
+    }
 #endif
     emission.normal = emission.direction;
 #ifdef HAS_AREA_LIGHTS

@@ -96,6 +96,9 @@ PathState start_path(uint index, uint slot) {
     path.vertex_count = 1u;
     path.photon_count = 0u;
     path.photon_vertex_count = 0u;
+#ifdef HAS_ENVIRONMENT_MAP
+    emitted_flux[slot] = vec4(emission.flux, 0.0);
+#endif
 #ifdef RECORD_PATHS
     write_vertex(path, emission.origin, INTERACTION_END, NO_OBJECT, emission.normal, 0.0, emission.flux, false);
 #endif

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shoots one chunk of photons and records every path's vertices and deposits in scratch slots (METHODS §1).
 // Inputs: scene, emitters, cells, cell_rows (projection maps), lane_order (coherent order of a chunk).
-// Outputs: summaries, deposited_flux, lost_flux, and per slot scratch_position, scratch_normal, scratch_power.
+// Outputs: summaries, deposited_flux, lost_flux, emitted_flux (with HAS_ENVIRONMENT_MAP), and per slot scratch_position, scratch_normal, scratch_power.
 // Defines: STORE_MODE, EMISSION, RECORD_PATHS (keep specular vertices too), HAS_DIELECTRIC, HAS_MIRROR,
-// HAS_ROUGH, HAS_TEXTURES, HAS_VERTEX_COLORS, HAS_ALPHA, HAS_ABSORPTION, HAS_SEVERAL_LIGHTS, HAS_SPOT_LIGHTS, HAS_DIRECTIONAL_LIGHTS, HAS_AREA_LIGHTS (then also emitting), HAS_ENVIRONMENT.
+// HAS_ROUGH, HAS_TEXTURES, HAS_VERTEX_COLORS, HAS_ALPHA, HAS_ABSORPTION, HAS_SEVERAL_LIGHTS, HAS_SPOT_LIGHTS,
+// HAS_DIRECTIONAL_LIGHTS, HAS_AREA_LIGHTS (then also emitting), HAS_ENVIRONMENT, HAS_ENVIRONMENT_MAP (then also environment_map).
 #include "shared/prelude.glsl"
 #include "shared/random.h"
 #include "shared/trace.h"
@@ -15,6 +16,7 @@
 #pragma binding writeonly PathSummary summaries
 #pragma binding writeonly vec4 deposited_flux
 #pragma binding writeonly vec4 lost_flux
+#pragma binding writeonly vec4 emitted_flux
 #pragma binding writeonly vec4 scratch_position
 #pragma binding writeonly vec4 scratch_normal
 #pragma binding writeonly vec4 scratch_power

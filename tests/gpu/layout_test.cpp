@@ -33,7 +33,7 @@ const std::map<std::string, HostStruct> HOST_STRUCTS{
     STRUCT(GatherSettings),  STRUCT(RepelSettings),    STRUCT(DescribeSettings), STRUCT(MoveSettings),
     STRUCT(CrossingJob),     STRUCT(CrossingSettings), STRUCT(CoverageSettings), STRUCT(BlendSettings),
     STRUCT(PixelSettings),   STRUCT(SurfaceSettings),  STRUCT(CellSettings),     STRUCT(SplatSettings),
-    STRUCT(ResolveSettings), STRUCT(TreeBracket),      STRUCT(EmittingTriangle),
+    STRUCT(ResolveSettings), STRUCT(TreeBracket),      STRUCT(EmittingTriangle), STRUCT(EnvironmentHeader),
 };
 
 std::vector<std::uint32_t> compile(const KernelVariant& variant, std::uint64_t by_address = 0) {
@@ -117,7 +117,7 @@ TEST(Layout, push_constants_fit_what_vulkan_guarantees) {
 
 // Texel buffers hold vec4s only.
 TEST(Layout, structs_read_as_texels_are_rows_of_vec4) {
-    for (const char* name : {"Triangle", "TriangleNormals", "BvhNode", "SceneHeader", "TreeNode"})
+    for (const char* name : {"Triangle", "TriangleNormals", "BvhNode", "SceneHeader", "EnvironmentHeader", "TreeNode"})
         EXPECT_EQ(HOST_STRUCTS.at(name).size_bytes % 16, 0u) << name;
 }
 

@@ -69,6 +69,20 @@ def add_scene_options(parser: argparse.ArgumentParser) -> None:
         "'directional DX,DY,DZ [W/m²]', 'area X,Y,Z DX,DY,DZ W,H [W/(m² sr)]', "
         "'environment [W/(m² sr)]', or 'auto', one that suits the scene",
     )
+    parser.add_argument(
+        "--environment",
+        metavar="FILE.exr",
+        help="add light from all around, as an equirectangular image has it: +y above, +x in its middle, then +z",
+    )
+    parser.add_argument(
+        "--environment-intensity", type=float, metavar="FACTOR", help="times the image; default 1, W/(m² sr)"
+    )
+    parser.add_argument(
+        "--environment-rotation",
+        type=float,
+        metavar="DEGREES",
+        help="turn the image about y, counter-clockwise seen from above; default 0",
+    )
     parser.add_argument("--floor", action="store_true", help="add a diffuse floor below the scene")
 
 
@@ -77,9 +91,21 @@ def open_scene(arguments: argparse.Namespace, path: str) -> Scene:
     scene = load_scene(path)
     for text in arguments.light:
         add_light(scene, text)
+    _add_environment(scene, arguments)
     if arguments.floor:
         scene.add_floor()
     return scene
+
+
+def _add_environment(scene: Scene, arguments: argparse.Namespace) -> None:
+    told = {"intensity": arguments.environment_intensity, "rotation": arguments.environment_rotation}
+    given = {name: value for name, value in told.items() if value is not None}
+    if arguments.environment is not None:
+        if "rotation" in given:
+            given["rotation"] = math.radians(given["rotation"])
+        scene.add_light("environment", image=arguments.environment, **given)
+    elif given:
+        raise ArgumentError(f"--environment-{min(given)} is about an image; name it with --environment FILE.exr")
 
 
 def warn_ignored(scene: Scene) -> None:

@@ -11,6 +11,7 @@
 #pragma binding readonly EmittingTriangle emitting
 #pragma binding readonly BvhNode nodes
 #pragma binding readonly SceneHeader headers
+#pragma binding readonly EnvironmentHeader environments
 #pragma binding readonly TreeNode tree_nodes
 #pragma binding readonly LightEmission emitters
 #pragma binding readonly PathSummary summaries
