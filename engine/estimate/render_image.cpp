@@ -16,8 +16,9 @@
 namespace photonloupe {
 namespace {
 
-// Diffuse hits one sample may have: behind glass the reflected and the transmitted path are both followed.
-constexpr std::uint32_t DIELECTRIC_SLOTS = 4;
+// Diffuse hits one sample may have where paths split: what glass reflects and transmits, what lies on both sides of a leaf
+// and under a gloss.
+constexpr std::uint32_t SPLIT_SLOTS = 4;
 // Slots of one chunk: a software device follows their rays in a tenth of a second, which Ctrl-C waits for.
 constexpr std::uint64_t CHUNK_SLOTS = 1ull << 17;
 
@@ -227,14 +228,16 @@ Image render_image(gpu::Device& device, const Scene& scene, const SceneBuffers& 
     if (settings.mode == RenderMode::photons)
         return plot_photons(device, scene, buffers, map->photons, camera, settings.width, settings.height, progress);
     Renderer renderer{device, scene, buffers, map, settings};
-    const bool has_glass = scene.report.has_dielectric || scene.report.has_thin;
+    const SceneReport& report = scene.report;
+    const bool splits =
+        report.has_dielectric || report.has_thin || report.has_mixed_receiver || report.has_translucency;
     renderer.eye.camera = camera;
     renderer.eye.width = settings.width;
     renderer.eye.height = settings.height;
     renderer.eye.samples = renderer.film_push.samples = settings.samples;
     renderer.eye.seed = renderer.film_push.seed = settings.seed;
     renderer.eye.max_bounces = settings.max_bounces;
-    renderer.eye.slot_count = renderer.film_push.slot_count = has_glass ? DIELECTRIC_SLOTS : 1;
+    renderer.eye.slot_count = renderer.film_push.slot_count = splits ? SPLIT_SLOTS : 1;
     renderer.film_push.light_count = static_cast<std::uint32_t>(scene.lights.size());
     for (const shared::Light& light : scene.lights)
         if (find_kind(light) == shared::LIGHT_ENVIRONMENT && !has_image(light))

@@ -49,6 +49,15 @@ std::string describe_material(const shared::Material& material) {
              << " 1/m";
     if (material.emission_transmission.x + material.emission_transmission.y + material.emission_transmission.z > 0)
         text << ", emits " << format_vector(material.emission_transmission) << " W/(m² sr)";
+    if (diffuse > 0 && material.translucency.w > 0)
+        text << ", passes " << material.translucency.w * 100 << " % of diffuse light, "
+             << format_vector(material.translucency);
+    if (diffuse > 0 && has_gloss(material))
+        text << ", gloss " << format_vector(material.gloss);
+    if (material.coat.x > 0)
+        text << ", coat " << material.coat.x << " of roughness " << material.coat.y;
+    if (clear > 0 && material.alpha.w > 0)
+        text << ", Abbe number " << 20 / material.alpha.w;
     if (material.alpha.y == shared::ALPHA_MASK)
         text << ", masked below alpha " << material.alpha.z;
     if (material.alpha.y == shared::ALPHA_BLEND)
@@ -140,7 +149,7 @@ SceneFeatures list_features(const Scene& scene) {
                                                      {report.has_thin, "thin glass"},
                                                      {!scene.textures.empty(), "textures"},
                                                      {!scene.corner_colors.empty(), "vertex colors"},
-                                                     {report.has_alpha, "alpha"},
+                                                     {report.has_alpha, "alpha"}, {report.has_translucency, "translucency"}, {report.has_layers, "gloss and coats"}, {report.has_dispersion, "dispersion"},
                                                      {report.has_emission, "emission seen by cameras"}};
     SceneFeatures result;
     for (const auto& [present, name] : features)

@@ -21,6 +21,8 @@ constexpr std::size_t MOST_PARTS = 1u << 16;
 constexpr int MOST_LEVELS = 8;
 // A part's radiance is the mean of the texture at the middles of this many triangles, a power of 4.
 constexpr int SAMPLE_LEVELS = 2;
+// Tints this near to white are rounding.
+constexpr float SAME_COLOR = 1e-5f;
 
 using Corners = std::array<glm::dvec3, 3>; // weights of a triangle's own corners
 
@@ -63,7 +65,10 @@ public:
             before += part.weight;
             scene.emitting.push_back({{part.corners[0], static_cast<float>(before / m_weight)},
                                       {part.corners[1], 0.0f},
-                                      {part.corners[2], 0.0f}});
+                                      {part.corners[2], 0.0f},
+                                      {find_tint(part), 0.0f}});
+            const glm::vec3 tint(scene.emitting.back().tint);
+            scene.report.has_colored_lamps |= glm::distance(tint, glm::vec3(1.0f)) > SAME_COLOR && m_texture > 0;
         }
         scene.emitting.back().v0_cumulative.w = 1.0f;
         const auto count = static_cast<std::uint32_t>(m_parts.size());
@@ -79,8 +84,17 @@ public:
 private:
     struct Part {
         std::array<glm::vec3, 3> corners;
-        double weight; // area times the largest channel of its radiance
+        double weight;          // area times the largest channel of its radiance
+        glm::dvec3 color{0.0};  // its radiance over the largest channel
     };
+
+    // All parts together carry the light's mean, each chosen by its weight.
+    glm::vec3 find_tint(const Part& part) const {
+        glm::vec3 tint(1.0f);
+        for (int channel = 0; channel < 3 && m_texture > 0; ++channel)
+            tint[channel] = m_power[channel] > 0 ? float(part.color[channel] * m_weight / m_power[channel]) : 0.0f;
+        return tint;
+    }
 
     // How often a triangle is split in four: as far as its texture's texels ask for.
     int choose_levels(std::uint32_t triangle, std::size_t count) const {
@@ -123,7 +137,9 @@ private:
                                         weights[i].z * glm::dvec3(triangle.v2_source));
         const glm::dvec3 radiance = find_radiance(index, weights);
         const double area = 0.5 * glm::length(compute_area_vector(part.corners[0], part.corners[1], part.corners[2]));
-        part.weight = area * std::max({radiance.x, radiance.y, radiance.z});
+        const double largest = std::max({radiance.x, radiance.y, radiance.z});
+        part.weight = area * largest;
+        part.color = largest > 0 ? radiance / largest : radiance;
         m_area += area;
         m_power += area * radiance;
         if (!(part.weight > 0))

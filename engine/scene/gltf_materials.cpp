@@ -22,6 +22,9 @@ constexpr double WIDEST_CONE = 0.5 * std::numbers::pi;
 // Indices of refraction of real matter end near 4.
 constexpr NumberRange IOR{1.0, 100.0};
 
+// 20 over the Abbe number, which glass has between 20 and 90.
+constexpr NumberRange DISPERSION{0.0, 100.0};
+
 JsonPlace find_extension(const JsonPlace& owner, const char* name) {
     return find_member(find_member(owner, "extensions"), name);
 }
@@ -49,6 +52,19 @@ void write_volume(const JsonPlace& material, Json& extensions) {
         approved["attenuationDistance"] = read_number(distance, require_positive(distance, NumberRange{}.hi));
 }
 
+// Members of an extension, where it is there: numbers, colors.
+void write_extension(const JsonPlace& material, const char* name, std::initializer_list<std::pair<const char*, double>> numbers,
+                     std::initializer_list<const char*> colors, NumberRange range, Json& extensions) {
+    const JsonPlace extension = find_extension(material, name);
+    if (!extension.value)
+        return;
+    Json& approved = extensions[name];
+    for (const auto& [member, fallback] : numbers)
+        approved[member] = read_number_or(find_member(extension, member), fallback, UNIT);
+    for (const char* member : colors)
+        approved[member] = read_numbers_or(find_member(extension, member), {1, 1, 1}, range);
+}
+
 std::string check_alpha_mode(const JsonPlace& place) {
     const std::string mode = read_string_or(place, "OPAQUE");
     if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND")
@@ -65,6 +81,14 @@ Json check_material(const JsonPlace& place) {
     extensions["KHR_materials_emissive_strength"]["emissiveStrength"] = read_number_or(
         find_member(find_extension(place, "KHR_materials_emissive_strength"), "emissiveStrength"), 1.0, POWER);
     write_volume(place, extensions);
+    write_extension(place, "KHR_materials_diffuse_transmission", {{"diffuseTransmissionFactor", 0.0}},
+                    {"diffuseTransmissionColorFactor"}, UNIT, extensions);
+    write_extension(place, "KHR_materials_specular", {{"specularFactor", 1.0}}, {"specularColorFactor"}, POWER,
+                    extensions);
+    write_extension(place, "KHR_materials_clearcoat", {{"clearcoatFactor", 0.0}, {"clearcoatRoughnessFactor", 0.0}},
+                    {}, UNIT, extensions);
+    extensions["KHR_materials_dispersion"]["dispersion"] = read_number_or(
+        find_member(find_extension(place, "KHR_materials_dispersion"), "dispersion"), 0.0, DISPERSION);
     return {{"name", read_string_or(find_member(place, "name"), "")},
             {"pbrMetallicRoughness",
              {{"baseColorFactor", read_numbers_or(find_member(pbr, "baseColorFactor"), {1, 1, 1, 1}, UNIT)},

@@ -28,7 +28,13 @@ constexpr std::array<SlotPlace, TEXTURE_SLOT_COUNT> SLOTS{{{"pbrMetallicRoughnes
                                                            {"pbrMetallicRoughness", "metallicRoughnessTexture"},
                                                            {"", "normalTexture"},
                                                            {"", "emissiveTexture"},
-                                                           {"KHR_materials_transmission", "transmissionTexture"}}};
+                                                           {"KHR_materials_transmission", "transmissionTexture"},
+    {"KHR_materials_diffuse_transmission", "diffuseTransmissionTexture"},
+    {"KHR_materials_diffuse_transmission", "diffuseTransmissionColorTexture"},
+    {"KHR_materials_specular", "specularTexture"},
+    {"KHR_materials_specular", "specularColorTexture"},
+    {"KHR_materials_clearcoat", "clearcoatTexture"},
+    {"KHR_materials_clearcoat", "clearcoatRoughnessTexture"}}};
 
 JsonPlace find_extension(const JsonPlace& owner, const char* name) {
     return find_member(find_member(owner, "extensions"), name);

@@ -13,8 +13,20 @@
 namespace photonloupe {
 
 // What of a material a texture may change.
-enum class TextureSlot : std::uint8_t { base_color, metallic_roughness, normal, emission, transmission };
-constexpr std::size_t TEXTURE_SLOT_COUNT = 5;
+enum class TextureSlot : std::uint8_t {
+    base_color,
+    metallic_roughness,
+    normal,
+    emission,
+    transmission,
+    translucency,
+    translucency_color,
+    gloss,
+    gloss_color,
+    coat,
+    coat_roughness
+};
+constexpr std::size_t TEXTURE_SLOT_COUNT = 11;
 
 enum class TextureWrap : std::uint8_t { repeat, clamp, mirror };
 

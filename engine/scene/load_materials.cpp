@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include <glm/common.hpp>
+
 #include "core/error.h"
 #include "core/json_place.h"
 #include "scene/load_textures.h"
@@ -43,6 +45,25 @@ glm::vec3 compute_absorption(const tinygltf::Material& material, const std::stri
     return absorption;
 }
 
+glm::vec3 read_extension_color(const tinygltf::Material& material, const char* extension, const char* key) {
+    const auto found = material.extensions.find(extension);
+    if (found == material.extensions.end() || !found->second.Has(key))
+        return glm::vec3(1.0f);
+    const tinygltf::Value& color = found->second.Get(key);
+    return {color.Get(0).GetNumberAsDouble(), color.Get(1).GetNumberAsDouble(), color.Get(2).GetNumberAsDouble()};
+}
+
+// KHR_materials_specular: reflectance straight on and at grazing angles. Without the extension none is modeled.
+glm::vec4 compute_gloss(const tinygltf::Material& material, double ior) {
+    constexpr const char* EXTENSION = "KHR_materials_specular";
+    if (!material.extensions.contains(EXTENSION))
+        return glm::vec4(0.0f);
+    const auto factor = float(read_extension_number(material, EXTENSION, "specularFactor", 1.0));
+    const auto straight = float(std::pow((ior - 1) / (ior + 1), 2));
+    return {glm::min(straight * read_extension_color(material, EXTENSION, "specularColorFactor"), 1.0f) * factor,
+            factor};
+}
+
 shared::Material convert_material(const tinygltf::Material& material, const std::string& scene_name) {
     const tinygltf::PbrMetallicRoughness& pbr = material.pbrMetallicRoughness;
     const double transmission =
@@ -63,7 +84,15 @@ shared::Material convert_material(const tinygltf::Material& material, const std:
     const float mode = material.alphaMode == "MASK"    ? shared::ALPHA_MASK
                        : material.alphaMode == "BLEND" ? shared::ALPHA_BLEND
                                                        : shared::ALPHA_OPAQUE;
-    result.alpha = {float(pbr.baseColorFactor[3]), mode, float(material.alphaCutoff), 0.0f};
+    result.alpha = {float(pbr.baseColorFactor[3]), mode, float(material.alphaCutoff),
+                    float(read_extension_number(material, "KHR_materials_dispersion", "dispersion", 0.0))};
+    constexpr const char* TRANSLUCENT = "KHR_materials_diffuse_transmission";
+    result.translucency = {read_extension_color(material, TRANSLUCENT, "diffuseTransmissionColorFactor"),
+                           float(read_extension_number(material, TRANSLUCENT, "diffuseTransmissionFactor", 0.0))};
+    result.gloss = compute_gloss(material, result.absorption_ior.w);
+    constexpr const char* COATED = "KHR_materials_clearcoat";
+    result.coat = {float(read_extension_number(material, COATED, "clearcoatFactor", 0.0)),
+                   float(read_extension_number(material, COATED, "clearcoatRoughnessFactor", 0.0)), 0.0f, 0.0f};
     result.roughness_thin = {float(pbr.roughnessFactor), is_thin ? 1.0f : 0.0f, material.doubleSided ? 1.0f : 0.0f,
                              0.0f};
     return result;
@@ -94,6 +123,10 @@ shared::Material fold_textures(Scene& scene, std::size_t index) {
     clear(material.emission_transmission.w, transmission.most[0]);
     for (int channel = 0; channel < 3; ++channel)
         clear(material.emission_transmission[channel], emission.most[std::size_t(channel)]);
+    clear(material.translucency.w, find_texture_range(scene, paint.others.z).most[3]);
+    clear(material.coat.x, find_texture_range(scene, paint.layers.z).most[0]);
+    if (find_texture_range(scene, paint.layers.x).most[3] == 0)
+        material.gloss = glm::vec4(0.0f);
     shared::Material least = material;
     least.base_color_metallic.w *= shine.least[2];
     least.emission_transmission.w *= transmission.least[0];
@@ -141,16 +174,21 @@ void report_material(const shared::Material& material, const shared::Material& l
     const bool emits = std::max({emission.x, emission.y, emission.z}) > 0;
 
     report.has_mirror |= metallic > 0;
-    report.has_rough |= roughness > 0 && (metallic > 0 || is_clear);
+    report.has_rough |=
+        (roughness > 0 && (metallic > 0 || is_clear || is_glossy)) || (is_coated && material.coat.y > 0);
     report.has_dielectric |= is_clear && !is_thin;
     report.has_thin |= is_clear && is_thin;
     report.has_absorption |= is_clear && !is_thin && absorbs;
     report.has_diffuse |= is_diffuse;
-    report.has_mixed_receiver |= is_diffuse && (metallic > 0 || transmission > 0);
+    const bool is_glossy = is_diffuse && has_gloss(material), is_coated = material.coat.x > 0;
+    report.has_layers |= is_glossy || is_coated;
+    report.has_translucency |= is_diffuse && material.translucency.w > 0;
+    report.has_dispersion |= is_clear && !is_thin && material.alpha.w > 0;
+    report.has_mixed_receiver |= is_diffuse && (metallic > 0 || transmission > 0 || is_glossy || is_coated);
     report.has_alpha |= material.alpha.y != shared::ALPHA_OPAQUE;
     report.has_emission |= emits;
 
-    if (is_diffuse)
+    if (is_diffuse && !is_glossy)
         report.ignored.push_back(label + ": the specular lobe of its opaque, non-metal part is not modeled (Lambert)");
 }
 

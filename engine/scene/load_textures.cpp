@@ -91,7 +91,8 @@ std::vector<RgbaImage> decode_images(std::vector<ImageFile> files, Scene& scene)
 }
 
 bool is_srgb(TextureSlot slot) {
-    return slot == TextureSlot::base_color || slot == TextureSlot::emission;
+    return slot == TextureSlot::base_color || slot == TextureSlot::emission ||
+           slot == TextureSlot::translucency_color || slot == TextureSlot::gloss_color;
 }
 
 shared::Texture make_texture(const TextureUse& use, TextureSlot slot, const RgbaImage& image, std::size_t first) {
@@ -111,7 +112,24 @@ shared::Texture make_texture(const TextureUse& use, TextureSlot slot, const Rgba
 }
 
 float& get_number(shared::MaterialPaint& paint, TextureSlot slot) {
-    return slot == TextureSlot::transmission ? paint.others.x : paint.colors[static_cast<int>(slot)];
+    switch (slot) {
+    case TextureSlot::transmission:
+        return paint.others.x;
+    case TextureSlot::translucency:
+        return paint.others.z;
+    case TextureSlot::translucency_color:
+        return paint.others.w;
+    case TextureSlot::gloss:
+        return paint.layers.x;
+    case TextureSlot::gloss_color:
+        return paint.layers.y;
+    case TextureSlot::coat:
+        return paint.layers.z;
+    case TextureSlot::coat_roughness:
+        return paint.layers.w;
+    default:
+        return paint.colors[static_cast<int>(slot)];
+    }
 }
 
 std::uint32_t wrap_texel(double at, std::uint32_t size, bool clamps, bool mirrors) {

@@ -47,6 +47,10 @@ struct SceneReport {
     bool has_thin = false;
     bool has_absorption = false;
     bool has_alpha = false;
+    bool has_translucency = false;
+    bool has_layers = false; // gloss or coat
+    bool has_dispersion = false;
+    bool has_colored_lamps = false; // textured unevenly
     bool has_mixed_receiver = false; // a surface that is diffuse in part
     bool has_diffuse = false;
     bool has_emission = false;
@@ -101,8 +105,17 @@ inline bool has_image(const shared::Light& light) {
     return find_kind(light) == shared::LIGHT_ENVIRONMENT && light.cone.x > 0;
 }
 
+inline bool has_gloss(const shared::Material& material) {
+    return material.gloss.x > 0 || material.gloss.y > 0 || material.gloss.z > 0 || material.gloss.w > 0;
+}
+
 inline bool is_two_sided(const shared::Material& material) {
     return material.roughness_thin.z > 0;
+}
+
+// Whether photons of one light differ in color.
+inline bool has_colored_emission(const Scene& scene) {
+    return scene.environment || scene.report.has_colored_lamps;
 }
 
 // Reads a .gltf or .glb file behind the project's wall. Throws SceneError with what, where and what to do.

@@ -87,6 +87,8 @@ std::vector<std::string> list_light_defines(const Scene& scene) {
             defines.emplace_back(define);
     if (scene.environment)
         defines.emplace_back("HAS_ENVIRONMENT_MAP");
+    if (scene.report.has_colored_lamps)
+        defines.emplace_back("HAS_COLORED_LAMPS");
     return defines;
 }
 
@@ -104,6 +106,12 @@ std::vector<std::string> list_scene_defines(const Scene& scene) {
         defines.emplace_back("HAS_ROUGH");
     for (std::string& define : list_paint_defines(scene))
         defines.push_back(std::move(define));
+    if (scene.report.has_translucency)
+        defines.emplace_back("HAS_TRANSLUCENCY");
+    if (scene.report.has_layers)
+        defines.emplace_back("HAS_LAYERS");
+    if (scene.report.has_dispersion)
+        defines.emplace_back("HAS_DISPERSION");
     if (scene.report.has_absorption)
         defines.emplace_back("HAS_ABSORPTION");
     return defines;

@@ -57,7 +57,7 @@ std::vector<std::uint32_t> order_lanes(std::uint32_t size, Emission emission) {
 }
 
 ChunkScratch allocate_chunk(gpu::Device& device, std::uint32_t size, std::uint32_t slot_count, Emission emission,
-                            bool has_image) {
+                            bool has_color) {
     const std::uint64_t vec4s = std::uint64_t{size} * sizeof(glm::vec4);
     const std::uint64_t blocks = size / shared::PATHS_PER_BLOCK;
     ChunkScratch scratch;
@@ -67,7 +67,7 @@ ChunkScratch allocate_chunk(gpu::Device& device, std::uint32_t size, std::uint32
     scratch.summaries = gpu::Buffer(device, size * sizeof(shared::PathSummary), "path summaries");
     scratch.deposited_flux = gpu::Buffer(device, vec4s, "deposited flux");
     scratch.lost_flux = gpu::Buffer(device, vec4s, "lost flux");
-    scratch.emitted_flux = gpu::Buffer(device, has_image ? vec4s : sizeof(glm::vec4), "emitted flux");
+    scratch.emitted_flux = gpu::Buffer(device, has_color ? vec4s : sizeof(glm::vec4), "emitted flux");
     scratch.position = gpu::Buffer(device, vec4s * slot_count, "scratch vertices");
     scratch.normal = gpu::Buffer(device, vec4s * slot_count, "scratch vertices");
     scratch.power = gpu::Buffer(device, vec4s * slot_count, "scratch vertices");

@@ -35,7 +35,7 @@ std::uint32_t count_slots(const Scene& scene, const TraceSettings& settings);
 std::uint32_t find_largest_chunk(const gpu::DeviceLimits& limits, std::uint32_t slot_count);
 
 ChunkScratch allocate_chunk(gpu::Device& device, std::uint32_t size, std::uint32_t slot_count, Emission emission,
-                            bool has_image);
+                            bool has_color);
 
 // The order in which a chunk's lanes take its emitted indices: neighbours in the Sobol net's elementary intervals
 // follow each other, so that lanes that run together follow similar rays. Owen scrambling and a chunk's offset permute

@@ -111,7 +111,8 @@ void frame_environment(const Scene& scene, EmissionFrame& frame, bool only_specu
 } // namespace
 
 bool is_specular(const shared::Material& material) {
-    return material.base_color_metallic.w > 0 || material.emission_transmission.w > 0;
+    return material.base_color_metallic.w > 0 || material.emission_transmission.w > 0 || has_gloss(material) ||
+           material.coat.x > 0;
 }
 
 double EmissionFrame::find_share(double angle) const {

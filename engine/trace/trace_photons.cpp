@@ -50,8 +50,8 @@ public:
         m_kernels.shoot.defines = list_defines();
         if (settings.paths)
             m_kernels.write.defines.emplace_back("RECORD_PATHS");
-        if (scene.environment)
-            m_kernels.sum.defines.emplace_back("HAS_ENVIRONMENT_MAP");
+        if (has_colored_emission(scene))
+            m_kernels.sum.defines.emplace_back("HAS_COLORED_EMISSION");
     }
 
     TracedPhotons run(const Progress& progress);
@@ -105,6 +105,8 @@ std::vector<std::string> Tracer::list_defines() const {
         defines.emplace_back("RECORD_PATHS");
     for (std::string& define : list_light_defines(m_scene))
         defines.push_back(std::move(define));
+    if (has_colored_emission(m_scene))
+        defines.emplace_back("HAS_COLORED_EMISSION");
     if (m_table.emitters.size() > 1)
         defines.emplace_back("HAS_SEVERAL_LIGHTS");
     return defines;
@@ -145,7 +147,7 @@ void Tracer::choose_chunk(double milliseconds) {
         size = std::min(2 * size, largest); // aligned, so that the lane order keeps its meaning
     if (size != m_scratch.size) {
         m_scratch = {}; // freed before the larger one is asked for
-        m_scratch = allocate_chunk(m_device, size, m_slot_count, m_settings.emission, m_scene.environment != nullptr);
+        m_scratch = allocate_chunk(m_device, size, m_slot_count, m_settings.emission, has_colored_emission(m_scene));
     }
     const std::uint64_t left = m_settings.emitted ? *m_settings.emitted - m_report.emitted : size;
     m_push.first = static_cast<std::uint32_t>(m_report.emitted);

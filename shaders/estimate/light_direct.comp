@@ -43,7 +43,7 @@ vec3 light_area(Light light, vec3 point, vec3 normal, vec3 u) {
     if (light.cone.w > 1.0) leaving = abs(leaving);
     if (cosine <= 0.0 || leaving <= 0.0) return vec3(0.0);
     float share = cosine * pass_scene(Ray(point, direction), distance * BEFORE_LIGHT);
-    return light.intensity.rgb * (light.cone.x * leaving / distance / distance) * share;
+    return light.intensity.rgb * from.tint * (light.cone.x * leaving / distance / distance) * share;
 }
 
 #endif

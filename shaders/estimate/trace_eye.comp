@@ -5,7 +5,7 @@
 // Dielectrics split into both directions while slots last, then one is chosen at random.
 // Rough surfaces send each path on one way, and show point, spot and directional lights themselves (lights).
 // Defines: HAS_DIELECTRIC, HAS_MIRROR, HAS_ROUGH (then also those of lights), HAS_ABSORPTION, HAS_TEXTURES,
-// HAS_VERTEX_COLORS, HAS_ALPHA, HAS_ENVIRONMENT_MAP.
+// HAS_VERTEX_COLORS, HAS_ALPHA, HAS_ENVIRONMENT_MAP, HAS_TRANSLUCENCY, HAS_LAYERS, HAS_DISPERSION.
 #include "shared/prelude.glsl"
 #include "shared/random.h"
 #include "shared/render.h"
@@ -31,6 +31,7 @@ struct Branch {
     Ray ray;
     vec3 weight;
     uint bounce;
+    float band; // place in the spectrum, in [0, 1); negative: white light
 };
 
 Branch waiting[LARGEST_SLOT_COUNT];
@@ -71,19 +72,41 @@ Branch start_branch() {
     float x = 2.0 * (float(pixel % settings.width) + dx) / float(settings.width) - 1.0;
     float y = 1.0 - 2.0 * (float(pixel / settings.width) + dy) / float(settings.height);
     vec3 direction = normalize_safely(settings.camera.forward.xyz + x * settings.camera.right.xyz + y * settings.camera.up.xyz);
-    return Branch(Ray(settings.camera.position.xyz, direction), vec3(1.0), 0u);
+    return Branch(Ray(settings.camera.position.xyz, direction), vec3(1.0), 0u, -1.0);
 }
 
 uint locate_slot(uint slot) { return slot * settings.sample_count + sample_index - settings.first_sample; }
 
+// `weight`: radiance for each exitance.
 void record_hit(Surface surface, vec3 normal, vec3 weight) {
     if (used_slots >= settings.slot_count) return;
     uint at = locate_slot(used_slots);
     hit_point[at] = vec4(leave_surface(surface, normal).origin, 1.0);
     hit_normal[at] = vec4(normal, 0.0);
-    hit_weight[at] = vec4(weight * surface.material.base_color_metallic.rgb / PI, 1.0);
+    hit_weight[at] = vec4(weight / PI, 1.0);
     ++used_slots;
 }
+
+void record_diffuse(Surface surface, vec3 normal, vec3 weight) {
+#ifdef HAS_TRANSLUCENCY
+    float passing = surface.material.translucency.w;
+    if (passing > 0.0) record_hit(surface, -normal, weight * passing * surface.material.translucency.rgb);
+    weight *= 1.0 - passing;
+    if (passing >= 1.0) return;
+#endif
+    record_hit(surface, normal, weight * surface.material.base_color_metallic.rgb);
+}
+
+#ifdef HAS_DISPERSION
+// White light takes a place in the spectrum where it first meets glass that disperses, another for each sample of a pixel.
+void choose_band(inout Branch branch) {
+    if (branch.band >= 0.0) return;
+    uint pixel = sample_index / settings.samples;
+    float offset = to_unit_float(random_bits(settings.seed, pixel, 0xfffffffcu, 0u));
+    branch.band = fract((float(sample_index % settings.samples) + offset) / float(settings.samples));
+    branch.weight *= color_band(branch.band);
+}
+#endif
 
 void wait_branch(Branch branch) {
     waiting[waiting_count] = branch;
@@ -100,12 +123,18 @@ bool survive_roulette(inout Branch branch) {
 
 // Follows both directions when a slot is left for each, else one by its probability.
 void split_dielectric(inout Branch branch, Surface surface) {
+#ifdef HAS_DISPERSION
+    if (surface.material.alpha.w > 0.0) {
+        choose_band(branch);
+        surface.material.absorption_ior.w = find_index(surface.material, branch.band);
+    }
+#endif
     Interface face = meet_dielectric(surface, branch.ray.direction, choose_facet(branch.bounce));
     vec3 tint = face.transmitted_share * surface.material.base_color_metallic.rgb;
     Branch reflected = Branch(leave_surface(surface, face.reflected),
-                              branch.weight * (face.reflectance * face.reflected_share), branch.bounce);
+                              branch.weight * (face.reflectance * face.reflected_share), branch.bounce, branch.band);
     Branch transmitted = Branch(leave_surface(surface, face.transmitted),
-                                branch.weight * (1.0 - face.reflectance) * tint, branch.bounce);
+                                branch.weight * (1.0 - face.reflectance) * tint, branch.bounce, branch.band);
     bool can_split = used_slots + waiting_count + 2u <= settings.slot_count && face.reflectance > 0.0 && face.reflectance < 1.0;
     if (can_split) {
         ++reflected.bounce;
@@ -135,6 +164,30 @@ vec3 shine_back(Surface surface, vec3 direction) {
 }
 #endif
 
+void follow_lobe(inout Branch branch, Surface surface, Lobe lobe) {
+    branch.weight *= lobe.share;
+    branch.ray = leave_surface(surface, lobe.direction);
+}
+
+// One of the lobes that are not diffuse; `choice` in [0, their share together).
+void follow_specular(inout Branch branch, Surface surface, LobeShares shares, float choice) {
+    vec3 direction = branch.ray.direction;
+    bool is_glass = choice >= shares.mirror + shares.gloss + shares.coat;
+#ifdef HAS_MIRROR
+    if (choice < shares.mirror) follow_lobe(branch, surface, reflect_metal(surface, direction, choose_facet(branch.bounce)));
+#endif
+#ifdef HAS_LAYERS
+    if (!is_glass && choice >= shares.mirror) {
+        if (choice < shares.mirror + shares.gloss)
+            follow_lobe(branch, surface, reflect_gloss(surface, direction, choose_facet(branch.bounce), shares));
+        else follow_lobe(branch, surface, reflect_coat(surface, direction, choose_facet(branch.bounce), shares));
+    }
+#endif
+#ifdef HAS_DIELECTRIC
+    if (is_glass) split_dielectric(branch, surface);
+#endif
+}
+
 // One surface of a branch; false when the branch ends here.
 bool follow_surface(inout Branch branch, Surface surface, float distance) {
     vec3 normal = face_arrival(surface, branch.ray.direction);
@@ -143,25 +196,14 @@ bool follow_surface(inout Branch branch, Surface surface, float distance) {
 #endif
     if (surface.material.roughness_thin.z > 0.0 || dot(branch.ray.direction, surface.geometric_normal) < 0.0)
         seen_emission += branch.weight * surface.material.emission_transmission.rgb;
-    float diffuse = weigh_diffuse(surface.material);
-    if (diffuse > 0.0) record_hit(surface, normal, branch.weight * diffuse);
-    if (diffuse >= 1.0 || branch.bounce >= settings.max_bounces) return false;
+    LobeShares shares = share_lobes(surface, branch.ray.direction);
+    if (shares.diffuse > 0.0) record_diffuse(surface, normal, branch.weight * shares.diffuse);
+    if (shares.diffuse >= 1.0 || branch.bounce >= settings.max_bounces) return false;
 #ifdef HAS_ROUGH
-    if (is_rough(surface.material)) seen_emission += branch.weight * shine_back(surface, branch.ray.direction);
+    if (has_rough_lobe(surface.material)) seen_emission += branch.weight * shine_back(surface, branch.ray.direction);
 #endif
-    float mirror = weigh_mirror(surface.material) / (1.0 - diffuse);
-    branch.weight *= 1.0 - diffuse;
-    bool takes_mirror = mirror >= 1.0 || (mirror > 0.0 && draw(branch.bounce, 1u) < mirror);
-#ifdef HAS_MIRROR
-    if (takes_mirror) {
-        Lobe lobe = reflect_metal(surface, branch.ray.direction, choose_facet(branch.bounce));
-        branch.weight *= lobe.share;
-        branch.ray = leave_surface(surface, lobe.direction);
-    }
-#endif
-#ifdef HAS_DIELECTRIC
-    if (!takes_mirror) split_dielectric(branch, surface);
-#endif
+    branch.weight *= 1.0 - shares.diffuse;
+    follow_specular(branch, surface, shares, draw(branch.bounce, 1u) * (1.0 - shares.diffuse));
     ++branch.bounce;
     return survive_roulette(branch);
 }

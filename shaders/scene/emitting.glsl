@@ -1,28 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points on area lights. Inputs: emitting (3 texels a triangle).
+// Points on area lights. Inputs: emitting. Defines: HAS_COLORED_LAMPS.
 #pragma binding texel emitting
 
 struct EmittingPoint {
     vec3 position;
     vec3 normal; // unit, of the front
     float error; // metres: bound on the rounding of the position
+    vec3 tint;   // of the light's mean
 };
 
-// Uniform over the triangles first … first + count - 1: `choice` says which one, u in [0, 1)² where on it.
+// By power over the triangles first … first + count - 1: `choice` says which one, u in [0, 1)² where on it.
 EmittingPoint sample_emitting(uint first, uint count, float choice, vec2 u) {
     uint low = 0u;
     uint high = count - 1u;
     while (low < high) { // the first whose cumulative share is above u.x
         uint middle = (low + high) / 2u;
-        if (choice < emitting_at(3u * (first + middle)).w) high = middle;
+        if (choice < emitting_at(EMITTING_TEXELS * (first + middle)).w) high = middle;
         else low = middle + 1u;
     }
-    vec4 v0 = emitting_at(3u * (first + low));
-    vec3 v1 = emitting_at(3u * (first + low) + 1u).xyz;
-    vec3 v2 = emitting_at(3u * (first + low) + 2u).xyz;
+    uint texel = EMITTING_TEXELS * (first + low);
+    vec4 v0 = emitting_at(texel);
+    vec3 v1 = emitting_at(texel + 1u).xyz;
+    vec3 v2 = emitting_at(texel + 2u).xyz;
     float root = sqrt(u.x);
     vec3 weights = vec3(1.0 - root, root * (1.0 - u.y), root * u.y);
     EmittingPoint point;
+    point.tint = vec3(1.0);
+#ifdef HAS_COLORED_LAMPS
+    point.tint = emitting_at(texel + 3u).rgb;
+#endif
     point.position = weights.x * v0.xyz + weights.y * v1 + weights.z * v2;
     vec3 reach = max(abs(v0.xyz), max(abs(v1), abs(v2)));
     point.error = POSITION_ERROR * max(reach.x, max(reach.y, reach.z));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Textures and vertex colors: what they make of a surface's material and normal.
-// Inputs: textures (3 texels each), paints (2 texels a material), atlas, corner_coordinates and corner_colors (3 texels a
+// Inputs: textures (3 texels each), paints (3 texels a material), atlas, corner_coordinates and corner_colors (3 texels a
 // triangle). Defines: HAS_TEXTURES, HAS_VERTEX_COLORS.
 #ifdef HAS_VERTEX_COLORS
 #pragma binding texel corner_colors
@@ -95,5 +95,15 @@ void paint_material(inout Material material, MaterialPaint paint, uint triangle,
     }
     if (paint.colors.w > 0.0) material.emission_transmission.rgb *= sample_texture(paint.colors.w, triangle, weights).rgb;
     if (paint.others.x > 0.0) material.emission_transmission.w *= sample_texture(paint.others.x, triangle, weights).r;
+#ifdef HAS_TRANSLUCENCY
+    if (paint.others.z > 0.0) material.translucency.w *= sample_texture(paint.others.z, triangle, weights).a;
+    if (paint.others.w > 0.0) material.translucency.rgb *= sample_texture(paint.others.w, triangle, weights).rgb;
+#endif
+#ifdef HAS_LAYERS
+    if (paint.layers.x > 0.0) material.gloss *= sample_texture(paint.layers.x, triangle, weights).a;
+    if (paint.layers.y > 0.0) material.gloss.rgb *= sample_texture(paint.layers.y, triangle, weights).rgb;
+    if (paint.layers.z > 0.0) material.coat.x *= sample_texture(paint.layers.z, triangle, weights).r;
+    if (paint.layers.w > 0.0) material.coat.y *= sample_texture(paint.layers.w, triangle, weights).g;
+#endif
 }
 #endif

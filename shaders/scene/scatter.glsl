@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a surface does to light: Lambert, mirror with Schlick reflectance, dielectric with exact Fresnel, both smooth or
 // rough. Sides are decided by the geometric normal, directions by the shading normal (METHODS §0).
-// Defines: HAS_ROUGH.
+// Over them a gloss and a coat, each a layer that reflects what its Fresnel says and lets the rest through.
+// Defines: HAS_ROUGH, HAS_LAYERS, HAS_DISPERSION.
 #include "scene/coverage.glsl"
 #ifdef HAS_ROUGH
 #include "scene/microfacet.glsl"
@@ -29,11 +30,40 @@ vec3 reflect_direction(Surface surface, vec3 direction) {
     return normalize_safely(reflect(direction, surface.geometric_normal));
 }
 
-vec3 reflect_schlick(Material m, float cosine) {
+vec3 reflect_schlick(vec3 f0, float f90, float cosine) {
     float x = clamp(1.0 - cosine, 0.0, 1.0);
-    vec3 f0 = m.base_color_metallic.rgb;
-    return f0 + (1.0 - f0) * (x * x * x * x * x);
+    return f0 + (f90 - f0) * (x * x * x * x * x);
 }
+
+#ifdef HAS_LAYERS
+// A coat's index is 1.5.
+const vec3 COAT_REFLECTANCE = vec3(0.04);
+
+float find_largest(vec3 v) { return max(v.r, max(v.g, v.b)); }
+#endif
+
+#ifdef HAS_DISPERSION
+// Of a place in the spectrum from 400 to 700 nm, what white light has there: the mean over all places is white.
+vec3 color_band(float band) {
+    float red = clamp(3.0 * band - 1.5, 0.0, 1.0);
+    float blue = clamp(1.5 - 3.0 * band, 0.0, 1.0);
+    return 3.0 * vec3(red, 1.0 - red - blue, blue);
+}
+
+// Cauchy's A + B/λ² through the index at the d line with the Abbe number 20 / dispersion (KHR_materials_dispersion).
+float find_index(Material material, float band) {
+    float nanometres = 400.0 + 300.0 * band;
+    float ior = material.absorption_ior.w;
+    float spread = (ior - 1.0) * material.alpha.w / 20.0; // between the F and C lines, 486.1 and 656.3 nm
+    float steepness = spread / (1.0 / (486.1 * 486.1) - 1.0 / (656.3 * 656.3));
+    return max(1.0, ior + steepness * (1.0 / (nanometres * nanometres) - 1.0 / (587.6 * 587.6)));
+}
+#endif
+
+// What becomes of arriving light; the rest meets the dielectric.
+struct LobeShares {
+    float diffuse, mirror, gloss, coat;
+};
 
 // Exact unpolarized Fresnel reflectance; `ratio` is index here over index beyond. 1 for total internal reflection.
 float reflect_fresnel(float cosine, float ratio, out float cosine_beyond) {
@@ -48,8 +78,28 @@ float reflect_fresnel(float cosine, float ratio, out float cosine_beyond) {
 
 bool arrives_in_front(Surface surface, vec3 direction) { return dot(direction, surface.geometric_normal) < 0.0; }
 
+LobeShares share_lobes(Surface surface, vec3 direction) {
+    Material m = surface.material;
+    LobeShares shares = LobeShares(weigh_diffuse(m), weigh_mirror(m), 0.0, 0.0);
+#ifdef HAS_LAYERS
+    float cosine = -dot(direction, face_arrival(surface, direction));
+    shares.coat = m.coat.x * find_largest(reflect_schlick(COAT_REFLECTANCE, 1.0, cosine));
+    shares.mirror *= 1.0 - shares.coat;
+    shares.gloss = shares.diffuse * (1.0 - shares.coat) * find_largest(reflect_schlick(m.gloss.rgb, m.gloss.w, cosine));
+    shares.diffuse = shares.diffuse * (1.0 - shares.coat) - shares.gloss;
+#endif
+    return shares;
+}
+
 #ifdef HAS_ROUGH
 bool is_rough(Material m) { return m.roughness_thin.x > 0.0; }
+
+bool has_rough_lobe(Material m) {
+#ifdef HAS_LAYERS
+    if (m.coat.x > 0.0 && m.coat.y > 0.0) return true;
+#endif
+    return is_rough(m);
+}
 
 // The frame of a rough surface's facets; its z axis is the normal that light arrives on.
 struct FacetFrame {
@@ -58,13 +108,13 @@ struct FacetFrame {
     float width;
 };
 
-FacetFrame build_facet_frame(Surface surface, vec3 direction) {
+FacetFrame build_facet_frame(Surface surface, vec3 direction, float roughness) {
     FacetFrame frame;
     frame.n = face_arrival(surface, direction);
     build_basis(frame.n, frame.u, frame.v);
     frame.arriving = -vec3(dot(direction, frame.u), dot(direction, frame.v), dot(direction, frame.n));
     frame.arriving.z = max(frame.arriving.z, 1e-7);
-    frame.width = find_ggx_width(surface.material.roughness_thin.x);
+    frame.width = find_ggx_width(roughness);
     return frame;
 }
 
@@ -86,20 +136,41 @@ struct Lobe {
     vec3 share;
 };
 
-// Off metal; u in [0, 1)² chooses the facet of a rough one.
-Lobe reflect_metal(Surface surface, vec3 direction, vec2 u) {
+// Off facets of Schlick's reflectance; u in [0, 1)² chooses one of a rough surface.
+Lobe reflect_facets(Surface surface, vec3 direction, vec2 u, float roughness, vec3 f0, float f90) {
 #ifdef HAS_ROUGH
-    if (is_rough(surface.material)) {
-        FacetFrame frame = build_facet_frame(surface, direction);
+    if (roughness > 0.0) {
+        FacetFrame frame = build_facet_frame(surface, direction, roughness);
         vec3 m = sample_visible_facet(frame.arriving, frame.width, u);
         vec3 leaving = reflect(-frame.arriving, m);
         return Lobe(turn_to_world(frame, leaving), share_leaving(surface, direction, frame, leaving, 1.0) *
-                                                       reflect_schlick(surface.material, dot(frame.arriving, m)));
+                                                       reflect_schlick(f0, f90, dot(frame.arriving, m)));
     }
 #endif
-    return Lobe(reflect_direction(surface, direction),
-                reflect_schlick(surface.material, -dot(direction, face_arrival(surface, direction))));
+    return Lobe(reflect_direction(surface, direction), reflect_schlick(f0, f90, -dot(direction, face_arrival(surface, direction))));
 }
+
+Lobe reflect_metal(Surface surface, vec3 direction, vec2 u) {
+    Material m = surface.material;
+    return reflect_facets(surface, direction, u, m.roughness_thin.x, m.base_color_metallic.rgb, 1.0);
+}
+
+#ifdef HAS_LAYERS
+// The layers' lobes are chosen by their reflectance at the whole surface, which the shares make up for.
+Lobe reflect_gloss(Surface surface, vec3 direction, vec2 u, LobeShares shares) {
+    Material m = surface.material;
+    Lobe lobe = reflect_facets(surface, direction, u, m.roughness_thin.x, m.gloss.rgb, m.gloss.w);
+    lobe.share *= weigh_diffuse(m) * (1.0 - shares.coat) / shares.gloss;
+    return lobe;
+}
+
+Lobe reflect_coat(Surface surface, vec3 direction, vec2 u, LobeShares shares) {
+    Material m = surface.material;
+    Lobe lobe = reflect_facets(surface, direction, u, m.coat.y, COAT_REFLECTANCE, 1.0);
+    lobe.share *= m.coat.x / shares.coat;
+    return lobe;
+}
+#endif
 
 // What a dielectric does to one arriving direction. Shares: of what is reflected or transmitted, what leaves.
 struct Interface {
@@ -153,7 +224,7 @@ Interface meet_smooth(Surface surface, vec3 direction) {
 #ifdef HAS_ROUGH
 // One facet decides both directions. Thin: what is transmitted is the reflection's mirror image behind the surface.
 Interface meet_facet(Surface surface, vec3 direction, vec2 u) {
-    FacetFrame frame = build_facet_frame(surface, direction);
+    FacetFrame frame = build_facet_frame(surface, direction, surface.material.roughness_thin.x);
     vec3 m = sample_visible_facet(frame.arriving, frame.width, u);
     float cosine = clamp(dot(frame.arriving, m), 0.0, 1.0);
     vec3 reflected = reflect(-frame.arriving, m);
@@ -173,12 +244,25 @@ Interface meet_facet(Surface surface, vec3 direction, vec2 u) {
     return face;
 }
 
-// Light per steradian that a rough surface sends from `direction` to `leaving`, of what arrives: the density of the
-// sampling above times its shares. Its dielectric's color is left out on reflection, as everywhere.
-vec3 scatter_rough(Surface surface, vec3 direction, vec3 leaving) {
-    FacetFrame frame = build_facet_frame(surface, direction);
+// Light per steradian that facets send from `direction` to `leaving`, mirrored, of what arrives: the density of the
+// sampling above times its shares.
+vec3 mirror_facets(Surface surface, vec3 direction, vec3 leaving, float roughness, vec3 f0, float f90) {
+    if (!(roughness > 0.0)) return vec3(0.0);
+    FacetFrame frame = build_facet_frame(surface, direction, roughness);
     vec3 w = turn_to_facets(frame, leaving);
+    vec3 m = normalize_safely(frame.arriving + w);
+    float share = share_leaving(surface, direction, frame, w, 1.0);
+    if (share <= 0.0) return vec3(0.0);
+    float density = find_visible_density(frame.arriving, m, frame.width) * measure_reflection(frame.arriving, m);
+    return share * density * reflect_schlick(f0, f90, dot(frame.arriving, m));
+}
+
+// The same of a dielectric, mirrored or refracted. Its color is left out on reflection, as everywhere.
+vec3 cross_facets(Surface surface, vec3 direction, vec3 leaving) {
     Material material = surface.material;
+    if (!is_rough(material) || weigh_dielectric(material) <= 0.0) return vec3(0.0);
+    FacetFrame frame = build_facet_frame(surface, direction, material.roughness_thin.x);
+    vec3 w = turn_to_facets(frame, leaving);
     float side = w.z > 0.0 ? 1.0 : -1.0;
     float share = share_leaving(surface, direction, frame, w, side);
     if (share <= 0.0) return vec3(0.0);
@@ -192,9 +276,21 @@ vec3 scatter_rough(Surface surface, vec3 direction, vec3 leaving) {
                     (is_mirrored ? measure_reflection(frame.arriving, m) : measure_refraction(frame.arriving, w, m, ratio));
     float beyond;
     float reflectance = is_thin(material) ? reflect_thin(cosine, material.absorption_ior.w) : reflect_fresnel(cosine, ratio, beyond);
-    vec3 clear = side > 0.0 ? vec3(reflectance) : (1.0 - reflectance) * material.base_color_metallic.rgb;
-    vec3 metal = side > 0.0 ? reflect_schlick(material, cosine) : vec3(0.0);
-    return share * density * (weigh_dielectric(material) * clear + weigh_mirror(material) * metal);
+    return share * density * (side > 0.0 ? vec3(reflectance) : (1.0 - reflectance) * material.base_color_metallic.rgb);
+}
+
+// Of all rough lobes.
+vec3 scatter_rough(Surface surface, vec3 direction, vec3 leaving) {
+    Material m = surface.material;
+    LobeShares shares = share_lobes(surface, direction);
+    vec3 sum = weigh_dielectric(m) * cross_facets(surface, direction, leaving) +
+               weigh_mirror(m) * mirror_facets(surface, direction, leaving, m.roughness_thin.x, m.base_color_metallic.rgb, 1.0);
+#ifdef HAS_LAYERS
+    sum += weigh_diffuse(m) * mirror_facets(surface, direction, leaving, m.roughness_thin.x, m.gloss.rgb, m.gloss.w);
+    sum *= 1.0 - shares.coat;
+    sum += m.coat.x * mirror_facets(surface, direction, leaving, m.coat.y, COAT_REFLECTANCE, 1.0);
+#endif
+    return sum;
 }
 #endif
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The surface at a hit: position with its error bound, normals, material; and rays that leave it safely.
-// Inputs: shading_normals (3 texels a triangle), materials (5 texels each), with textures and vertex colors what paints them.
-// Defines: HAS_TEXTURES, HAS_VERTEX_COLORS, HAS_ALPHA.
+// Inputs: shading_normals (3 texels a triangle), materials (8 texels each), with textures and vertex colors what paints them.
+// Defines: HAS_TEXTURES, HAS_VERTEX_COLORS, HAS_ALPHA, HAS_TRANSLUCENCY, HAS_LAYERS, HAS_DISPERSION.
 #include "shared/math.glsl"
 #include "scene/intersect.glsl"
 #include "scene/paint.glsl"
@@ -18,12 +18,20 @@ struct Surface {
 };
 
 Material load_material(uint index) {
-    vec4 alpha = vec4(1.0, ALPHA_OPAQUE, 0.0, 0.0);
-#ifdef HAS_ALPHA
-    alpha = materials_at(5u * index + 4u);
+    uint first = MATERIAL_TEXELS * index;
+    Material material = Material(materials_at(first), materials_at(first + 1u), materials_at(first + 2u), materials_at(first + 3u),
+                                 vec4(1.0, ALPHA_OPAQUE, 0.0, 0.0), vec4(0.0), vec4(0.0), vec4(0.0));
+#if defined(HAS_ALPHA) || defined(HAS_DISPERSION)
+    material.alpha = materials_at(first + 4u);
 #endif
-    return Material(materials_at(5u * index), materials_at(5u * index + 1u), materials_at(5u * index + 2u),
-                    materials_at(5u * index + 3u), alpha);
+#ifdef HAS_TRANSLUCENCY
+    material.translucency = materials_at(first + 5u);
+#endif
+#ifdef HAS_LAYERS
+    material.gloss = materials_at(first + 6u);
+    material.coat = materials_at(first + 7u);
+#endif
+    return material;
 }
 
 Surface load_surface(Hit hit) {
@@ -55,7 +63,8 @@ Surface load_surface(Hit hit) {
     surface.material.alpha.x *= color.a;
 #endif
 #ifdef HAS_TEXTURES
-    MaterialPaint paint = MaterialPaint(paints_at(2u * material), paints_at(2u * material + 1u));
+    MaterialPaint paint = MaterialPaint(paints_at(PAINT_TEXELS * material), paints_at(PAINT_TEXELS * material + 1u),
+                                        paints_at(PAINT_TEXELS * material + 2u));
     paint_material(surface.material, paint, hit.triangle, weights);
     if (paint.colors.z > 0.0)
         surface.shading_normal =

@@ -23,14 +23,20 @@ struct TriangleNormals {
     vec4 n2;
 };
 
-// Mixture of Lambert, mirror and dielectric: weights (1-metallic)(1-transmission), metallic, (1-metallic)·transmission.
+// Mixture of Lambert, mirror and dielectric: weights (1-metallic)(1-transmission), metallic, (1-metallic)·transmission;
+// under a coat, and a gloss over Lambert, where there are.
 struct Material {
     vec4 base_color_metallic;   // rgb linear base colour, w metallic
     vec4 absorption_ior;        // rgb absorption coefficient of the interior in 1/m (Beer-Lambert), w index of refraction
     vec4 emission_transmission; // rgb emitted radiance W/(m² sr), w transmission
     vec4 roughness_thin;        // x roughness, y 1 = thin (no volume), z 1 = two-sided (emission), w unused
-    vec4 alpha;                 // x alpha, y ALPHA_*, z least alpha that is there (ALPHA_MASK), w unused
+    vec4 alpha;                 // x alpha, y ALPHA_*, z least alpha that is there (ALPHA_MASK), w dispersion: 20 / Abbe number
+    vec4 translucency;          // rgb colour of diffuse light that passes, w its share of all diffuse light
+    vec4 gloss;                 // of a lobe over Lambert: rgb reflectance straight on, w at grazing angles; black: none
+    vec4 coat;                  // x share that is coated, y the coat's roughness, zw unused
 };
+
+const uint MATERIAL_TEXELS = 8u;
 
 const float ALPHA_OPAQUE = 0.0f;
 const float ALPHA_MASK = 1.0f;  // there or not
@@ -57,8 +63,11 @@ const uint ATLAS_TABLE_SIZE = 256u;
 // What paints a material: indices of textures + 1, 0 where there is none, exact in floats.
 struct MaterialPaint {
     vec4 colors; // x base colour, y metallic-roughness, z normal, w emission
-    vec4 others; // x transmission, y scale of the normal texture, zw unused
+    vec4 others; // x transmission, y scale of the normal texture, z translucency's share, w its colour
+    vec4 layers; // x gloss, y its colour, z coat, w its roughness
 };
+
+const uint PAINT_TEXELS = 3u;
 
 // At the corners of a triangle.
 struct CornerCoordinates {
@@ -91,7 +100,10 @@ struct EmittingTriangle {
     vec4 v0_cumulative; // xyz vertex 0, w share of the light's power up to and with this one
     vec4 v1;            // xyz vertex 1, w unused
     vec4 v2;            // xyz vertex 2, w unused
+    vec4 tint;          // rgb its radiance over its largest channel, over the same of the light's mean; w unused
 };
+
+const uint EMITTING_TEXELS = 4u;
 
 // Entries of a traversal's stack; the builder keeps every tree shallower (BVH_MAX_DEPTH in engine/scene/bvh.h).
 const uint BVH_STACK_SIZE = 64u;

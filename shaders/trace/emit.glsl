@@ -98,6 +98,7 @@ void emit_area(inout Emission emission, LightEmission light, Place place, uint i
     }
     emission.normal = is_back ? -point.normal : point.normal;
     emission.origin = point.position + point.error * emission.normal;
+    emission.flux *= point.tint;
 }
 #endif
 

@@ -11,6 +11,7 @@ struct PathState {
     bool alive;
     bool met_specular;
     bool met_diffuse;
+    float band;   // place in the spectrum, in [0, 1); negative: white light
     uint outcome;
     vec3 deposited; // sum over events of flux in - out
     vec3 lost;      // flux carried away when escaped or truncated
@@ -89,6 +90,7 @@ PathState start_path(uint index, uint slot) {
     path.alive = true;
     path.met_specular = false;
     path.met_diffuse = false;
+    path.band = -1.0;
     path.outcome = OUTCOME_ABSORBED;
     path.deposited = vec3(0.0);
     path.lost = vec3(0.0);
@@ -96,7 +98,7 @@ PathState start_path(uint index, uint slot) {
     path.vertex_count = 1u;
     path.photon_count = 0u;
     path.photon_vertex_count = 0u;
-#ifdef HAS_ENVIRONMENT_MAP
+#ifdef HAS_COLORED_EMISSION
     emitted_flux[slot] = vec4(emission.flux, 0.0);
 #endif
 #ifdef RECORD_PATHS

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shoots one chunk of photons and records every path's vertices and deposits in scratch slots (METHODS §1).
 // Inputs: scene, emitters, cells, cell_rows (projection maps), lane_order (coherent order of a chunk).
-// Outputs: summaries, deposited_flux, lost_flux, emitted_flux (with HAS_ENVIRONMENT_MAP), and per slot scratch_position, scratch_normal, scratch_power.
+// Outputs: summaries, deposited_flux, lost_flux, emitted_flux (with HAS_COLORED_EMISSION), and per slot scratch_position, scratch_normal, scratch_power.
 // Defines: STORE_MODE, EMISSION, RECORD_PATHS (keep specular vertices too), HAS_DIELECTRIC, HAS_MIRROR,
 // HAS_ROUGH, HAS_TEXTURES, HAS_VERTEX_COLORS, HAS_ALPHA, HAS_ABSORPTION, HAS_SEVERAL_LIGHTS, HAS_SPOT_LIGHTS,
-// HAS_DIRECTIONAL_LIGHTS, HAS_AREA_LIGHTS (then also emitting), HAS_ENVIRONMENT, HAS_ENVIRONMENT_MAP (then also environment_map).
+// HAS_DIRECTIONAL_LIGHTS, HAS_AREA_LIGHTS (then also emitting), HAS_ENVIRONMENT, HAS_ENVIRONMENT_MAP (then also environment_map),
+// HAS_COLORED_LAMPS, HAS_COLORED_EMISSION (either of the two), HAS_TRANSLUCENCY, HAS_LAYERS, HAS_DISPERSION.
 #include "shared/prelude.glsl"
 #include "shared/random.h"
 #include "shared/trace.h"
@@ -26,14 +27,24 @@ layout(push_constant) uniform Push { TraceSettings settings; };
 #include "trace/emit.glsl"
 #include "trace/path_state.glsl"
 
-// Light leaves a diffuse surface, or the path ends there.
-void scatter_diffuse(inout PathState path, Surface surface, vec3 normal, uvec4 random) {
+// Light leaves a diffuse surface, on this side or beyond, or the path ends there; `choice` in [0, 1).
+uint scatter_diffuse(inout PathState path, Surface surface, vec3 normal, uvec4 random, float choice) {
 #if STORE_MODE == 0 // STORE_CAUSTIC: nothing behind a diffuse surface can be stored
     end_path(path, OUTCOME_RECEIVED);
+    return INTERACTION_REFLECTED;
 #else
-    if (!survive(path, surface.material.base_color_metallic.rgb, random.y)) return;
-    path.ray = leave_surface(surface, sample_cosine(normal, to_unit_float(random.z), to_unit_float(random.w)));
-    path.met_diffuse = true;
+    bool passes = false;
+    vec3 color = surface.material.base_color_metallic.rgb;
+#ifdef HAS_TRANSLUCENCY
+    passes = choice < surface.material.translucency.w;
+    if (passes) color = surface.material.translucency.rgb;
+#endif
+    if (survive(path, color, random.y)) {
+        vec3 side = passes ? -normal : normal;
+        path.ray = leave_surface(surface, sample_cosine(side, to_unit_float(random.z), to_unit_float(random.w)));
+        path.met_diffuse = true;
+    }
+    return passes ? INTERACTION_TRANSMITTED : INTERACTION_REFLECTED;
 #endif
 }
 
@@ -56,14 +67,33 @@ uint choose_coverage(PathState path) {
 #endif
 }
 
-void scatter_mirror(inout PathState path, Surface surface, uvec4 random) {
-    Lobe lobe = reflect_metal(surface, path.ray.direction, choose_facet(path));
+void follow_lobe(inout PathState path, Surface surface, Lobe lobe, uvec4 random) {
     if (!survive(path, lobe.share, random.y)) return;
     path.ray = leave_surface(surface, lobe.direction);
     path.met_specular = true;
 }
 
+#ifdef HAS_DISPERSION
+// White light takes a place in the spectrum when it first meets glass that disperses; the rest of its flux stays there.
+void choose_band(inout PathState path) {
+    if (path.band >= 0.0) return;
+    uint kind = floatBitsToUint(emitters[path.light].position_kind.w);
+    bool is_free = kind != LIGHT_AREA && kind != LIGHT_ENVIRONMENT; // else the dimension says where light starts
+    uint bits = is_free ? sample_emission(path.index, 4u) : random_bits(settings.seed, path.index, path.bounce, 4u);
+    path.band = to_unit_float(bits);
+    vec3 leaving = path.flux * color_band(path.band);
+    path.deposited += path.flux - leaving;
+    path.flux = leaving;
+}
+#endif
+
 uint scatter_dielectric(inout PathState path, Surface surface, uvec4 random) {
+#ifdef HAS_DISPERSION
+    if (surface.material.alpha.w > 0.0) {
+        choose_band(path);
+        surface.material.absorption_ior.w = find_index(surface.material, path.band);
+    }
+#endif
     Interface face = meet_dielectric(surface, path.ray.direction, choose_facet(path));
     path.met_specular = true;
     if (to_unit_float(random.z) < face.reflectance) {
@@ -83,7 +113,8 @@ void meet_surface(inout PathState path, Surface surface, float distance) {
     if (!survive(path, transmit_interior(surface, path.ray.direction, distance),
                  random_bits(settings.seed, path.index, path.bounce, 1u))) return;
 #endif
-    float diffuse = weigh_diffuse(surface.material);
+    LobeShares shares = share_lobes(surface, path.ray.direction);
+    float diffuse = shares.diffuse;
     bool stores = diffuse > 0.0 && is_stored(path);
     vec3 arriving = path.flux;
     uint interaction = INTERACTION_REFLECTED;
@@ -91,9 +122,16 @@ void meet_surface(inout PathState path, Surface surface, float distance) {
         end_path(path, OUTCOME_TRUNCATED);
     } else {
         float choice = to_unit_float(random.x);
-        if (choice < diffuse) scatter_diffuse(path, surface, normal, random);
+        vec3 arrival = path.ray.direction;
+        if (choice < diffuse) interaction = scatter_diffuse(path, surface, normal, random, choice / diffuse);
 #ifdef HAS_MIRROR
-        else if (choice < diffuse + weigh_mirror(surface.material)) scatter_mirror(path, surface, random);
+        else if (choice < diffuse + shares.mirror) follow_lobe(path, surface, reflect_metal(surface, arrival, choose_facet(path)), random);
+#endif
+#ifdef HAS_LAYERS
+        else if (choice < diffuse + shares.mirror + shares.gloss)
+            follow_lobe(path, surface, reflect_gloss(surface, arrival, choose_facet(path), shares), random);
+        else if (choice < diffuse + shares.mirror + shares.gloss + shares.coat)
+            follow_lobe(path, surface, reflect_coat(surface, arrival, choose_facet(path), shares), random);
 #endif
 #ifdef HAS_DIELECTRIC
         else interaction = scatter_dielectric(path, surface, random);

@@ -23,7 +23,7 @@ void main() {
         sum.paths += uvec4(outcome == OUTCOME_ABSORBED, outcome == OUTCOME_ESCAPED, outcome == OUTCOME_TRUNCATED,
                            outcome == OUTCOME_RECEIVED);
         if (outcome == OUTCOME_UNFINISHED) sum.emitted.w += 1.0;
-#ifdef HAS_ENVIRONMENT_MAP
+#ifdef HAS_COLORED_EMISSION
         sum.emitted.rgb += emitted_flux_at(path).rgb;
 #else
         sum.emitted.rgb += emitters[summaries[path].outcome >> 8u].flux_cumulative.rgb;

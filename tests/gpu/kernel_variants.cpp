@@ -20,13 +20,16 @@ const std::vector<std::string> DIELECTRIC{"", "HAS_DIELECTRIC"};
 const std::vector<std::string> ABSORPTION{"", "HAS_ABSORPTION"};
 const std::vector<std::string> PAINT{"", "HAS_TEXTURES", "HAS_VERTEX_COLORS",
                                      "HAS_TEXTURES\n#define HAS_VERTEX_COLORS\n#define HAS_ALPHA"},
-    MATTER{"", "HAS_ROUGH", "HAS_ROUGH\n#define HAS_TEXTURES\n#define HAS_VERTEX_COLORS\n#define HAS_ALPHA"};
+    MATTER{"", "HAS_ROUGH",
+           "HAS_ROUGH\n#define HAS_TEXTURES\n#define HAS_VERTEX_COLORS\n#define HAS_ALPHA\n#define HAS_TRANSLUCENCY\n"
+           "#define HAS_LAYERS\n#define HAS_DISPERSION"};
 const std::vector<std::string> SPOT{"", "HAS_SPOT_LIGHTS"}, DIRECTIONAL{"", "HAS_DIRECTIONAL_LIGHTS"},
     AREA{"", "HAS_AREA_LIGHTS"}, ENVIRONMENT{"", "HAS_ENVIRONMENT", "HAS_ENVIRONMENT\n#define HAS_ENVIRONMENT_MAP"},
-    SEEN{"", "HAS_ENVIRONMENT_MAP"};
+    COLORED{"", "HAS_COLORED_EMISSION"};
 const std::vector<std::string> OTHER_LIGHTS{"", "HAS_SPOT_LIGHTS\n#define HAS_DIRECTIONAL_LIGHTS\n#define "
                                                 "HAS_AREA_LIGHTS\n#define HAS_ENVIRONMENT\n#define "
-                                                "HAS_ENVIRONMENT_MAP\n#define HAS_SEVERAL_LIGHTS"};
+                                                "HAS_ENVIRONMENT_MAP\n#define HAS_COLORED_LAMPS\n#define "
+                                                "HAS_COLORED_EMISSION\n#define HAS_SEVERAL_LIGHTS"};
 const std::vector<std::string> KERNELS{"KERNEL 0", "KERNEL 1", "KERNEL 2", "KERNEL 3"};
 
 const std::vector<std::string> SURFACE{"HAS_NORMALS", "HAS_NORMALS\n#define FLAT_AXES xz",
@@ -88,7 +91,7 @@ const std::map<std::string, Factors> FACTORS{
     {"relax/move_photons.comp", {{"", "HAS_SURFACE"}}},
     {"relax/repel_photons.comp", {SURFACE, LAYERS, PERIODIC, SINGLY, {"", "CARRIED"}, {"", "CONSTRAINED"}}},
     {"trace/shoot_photons.comp", {STORES, EMISSIONS, PATHS, MIRROR, DIELECTRIC, ABSORPTION, MATTER, OTHER_LIGHTS}},
-    {"trace/sum_balance.comp", {SEEN}},
+    {"trace/sum_balance.comp", {COLORED}},
     {"trace/write_photons.comp", {PATHS}},
 };
 
