@@ -40,10 +40,10 @@ WIDTH, HEIGHT = 64, 48
 HEADER = """# Real files
 
 Written by `./photonloupe python tests/corpus/corpus.py` on the software device. Every file below is fetched from its
-package ([tests/corpus/packages.json](../tests/corpus/packages.json)), loaded, given `--light auto` where it has no light,
-traced with {photons:,} photons, and rendered at {width} × {height}. What no photon would stay on, all of it metal or out
-of the light's reach, gets a floor. A picture counts that is finite and not black; nobody compared it with another
-renderer's. `pytest tests/corpus` runs the same as tests.
+package ([tests/corpus/packages.json](../tests/corpus/packages.json)), loaded, given `--light auto` where it has no
+light, traced with {photons:,} photons, and rendered at {width} × {height}. What no photon would stay on, all of it
+metal or out of the light's reach, gets a floor. A picture counts that is finite and not black; nobody compared it with
+another renderer's. `pytest tests/corpus` runs the same as tests.
 
 {count} files: {loaded} load, {rendered} render.
 
