@@ -168,6 +168,7 @@ void report_material(const shared::Material& material, const shared::Material& l
     const float least_metallic = least.base_color_metallic.w, least_transmission = least.emission_transmission.w;
     const bool is_clear = least_metallic < 1 && transmission > 0;
     const bool is_diffuse = least_metallic < 1 && least_transmission < 1;
+    const bool is_glossy = is_diffuse && has_gloss(material), is_coated = material.coat.x > 0;
     const bool absorbs =
         std::max({material.absorption_ior.x, material.absorption_ior.y, material.absorption_ior.z}) > 0;
     const glm::vec3 emission(material.emission_transmission);
@@ -180,7 +181,6 @@ void report_material(const shared::Material& material, const shared::Material& l
     report.has_thin |= is_clear && is_thin;
     report.has_absorption |= is_clear && !is_thin && absorbs;
     report.has_diffuse |= is_diffuse;
-    const bool is_glossy = is_diffuse && has_gloss(material), is_coated = material.coat.x > 0;
     report.has_layers |= is_glossy || is_coated;
     report.has_translucency |= is_diffuse && material.translucency.w > 0;
     report.has_dispersion |= is_clear && !is_thin && material.alpha.w > 0;

@@ -34,6 +34,7 @@ const std::map<std::string, HostStruct> HOST_STRUCTS{
     STRUCT(CrossingJob),     STRUCT(CrossingSettings), STRUCT(CoverageSettings), STRUCT(BlendSettings),
     STRUCT(PixelSettings),   STRUCT(SurfaceSettings),  STRUCT(CellSettings),     STRUCT(SplatSettings),
     STRUCT(ResolveSettings), STRUCT(TreeBracket),      STRUCT(EmittingTriangle), STRUCT(EnvironmentHeader),
+    STRUCT(Texture),         STRUCT(MaterialPaint),    STRUCT(CornerCoordinates), STRUCT(CornerColors),
 };
 
 std::vector<std::uint32_t> compile(const KernelVariant& variant, std::uint64_t by_address = 0) {

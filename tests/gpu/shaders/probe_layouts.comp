@@ -10,6 +10,10 @@
 #pragma binding readonly Light lights
 #pragma binding readonly EmittingTriangle emitting
 #pragma binding readonly BvhNode nodes
+#pragma binding readonly Texture textures
+#pragma binding readonly MaterialPaint paints
+#pragma binding readonly CornerCoordinates coordinates
+#pragma binding readonly CornerColors colors
 #pragma binding readonly SceneHeader headers
 #pragma binding readonly EnvironmentHeader environments
 #pragma binding readonly TreeNode tree_nodes
