@@ -285,6 +285,9 @@ def test_wrong_environments_are_refused(tmp_path: Path) -> None:
     ):
         with pytest.raises(pl.PhotonLoupeError, match=message):
             scene.add_light("environment", **told)
+    for name in ("", "a\0b"):
+        with pytest.raises(pl.SceneError, match="/image: it names no file"):
+            scene.restore([{"add": "light", "kind": "environment", "image": name}])
     with pytest.raises(pl.PhotonLoupeError, match="not a point light"):
         scene.add_light("point", image=sky)
     scene.add_light("environment", image=sky)
