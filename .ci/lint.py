@@ -102,6 +102,12 @@ CHECKS: dict[str, Callable[[], bool]] = {
 }
 
 
+def write_generated() -> bool:
+    """Write anew what comes from the engine: the manuals' tables, the types of keywords, the stub of the bindings."""
+    stub = ("-m", "nanobind.stubgen", "-m", "photonloupe._engine", "-o", "python/photonloupe/_engine.pyi", "--quiet")
+    return all((run(sys.executable, "tests/python/manual_tables.py"), run(sys.executable, *stub)))
+
+
 def fix() -> bool:
     """Write anew what tools can mend: formatting, and what ruff knows the cure of."""
     ruff = (sys.executable, "-m", "ruff")
@@ -130,14 +136,18 @@ def main() -> int:
     """Run the checks and say which failed; every one runs, whatever the others find."""
     parser = argparse.ArgumentParser(prog="photonloupe lint", description="Run the static checks.")
     parser.add_argument("checks", nargs="*", metavar="CHECK", help=f"of {', '.join(CHECKS)}; default: all")
-    parser.add_argument("--fix", action="store_true", help="first format all sources, and mend what ruff can")
+    parser.add_argument(
+        "--fix", action="store_true", help="first write what is generated, format all, mend what ruff can"
+    )
     options = parser.parse_args()
     unknown = set(options.checks) - CHECKS.keys()
     if unknown:
         parser.error(f"no check is called {', '.join(sorted(unknown))}; there are {', '.join(CHECKS)}")
+    failed = []
     if options.fix:
+        failed += [] if write_generated() else ["what is generated"]
         fix()
-    failed = [name for name in options.checks or CHECKS if not run_check(name)]
+    failed += [name for name in options.checks or CHECKS if not run_check(name)]
     if failed:
         print(f"== lint FAILED: {', '.join(failed)}")
     return 1 if failed else 0

@@ -13,7 +13,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from crowded_floor import build_crowd
 from extrusion import Corner, build_bar
+from glass_ball import build_ball_scene
 from gltf import (
     GltfWriter,
     Vector,
@@ -25,6 +27,7 @@ from gltf import (
     make_mirror,
 )
 from laid_table import build_table
+from thumb_tack import build_tack
 
 # From so far up the rim hides only 2.6 % of a radius of floor behind it.
 TOP_CAMERA_HEIGHT = 20.0
@@ -346,21 +349,28 @@ SCENES: dict[str, Callable[[], GltfWriter]] = {
     "prism": build_prism,
     "lightguide": build_lightguide,
     "table": build_table,
+    "ball": build_ball_scene,
+    "tack": build_tack,
 }
+
+# Too large to be committed.
+LARGE_SCENES: dict[str, Callable[[], GltfWriter]] = {"crowd": build_crowd}
 
 
 def main() -> None:
-    """Writes the scenes named on the command line, all of them by default."""
+    """Writes the scenes named on the command line; by default all that are committed."""
+    known = {**SCENES, **LARGE_SCENES}
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("names", nargs="*", metavar="NAME", help=f"one of {', '.join(SCENES)}; default: all")
-    parser.add_argument("-o", "--output", type=Path, default=Path(__file__).resolve().parent, help="parent folder")
+    parser.add_argument("names", nargs="*", metavar="NAME", help=f"of {', '.join(known)}; default: all but the last")
+    parser.add_argument("-o", "--output", type=Path, help="parent folder; default: scenes, of large ones out")
     arguments = parser.parse_args()
-    unknown = sorted(set(arguments.names) - set(SCENES))
+    unknown = sorted(set(arguments.names) - set(known))
     if unknown:
-        parser.error(f"no scene named {', '.join(unknown)}; there are {', '.join(SCENES)}")
+        parser.error(f"no scene named {', '.join(unknown)}; there are {', '.join(known)}")
+    here = Path(__file__).resolve().parent
     for name in arguments.names or SCENES:
-        writer = SCENES[name]()
-        writer.write(arguments.output / name)
+        writer = known[name]()
+        writer.write((arguments.output or (here.parent / "out" if name in LARGE_SCENES else here)) / name)
         print(f"{name}: {len(writer.buffer):,} bytes of geometry")
 
 

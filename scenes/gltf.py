@@ -74,6 +74,11 @@ def build_box(low: Vector, high: Vector) -> Mesh:
     return Mesh(np.concatenate(positions), np.concatenate(normals), np.array(indices))
 
 
+def move_mesh(mesh: Mesh, offset: Vector) -> Mesh:
+    """The same mesh somewhere else."""
+    return Mesh(mesh.positions + np.array(offset), mesh.normals, mesh.indices)
+
+
 def find_rotation(eye: Vector, target: Vector, up: Vector) -> list[float]:
     """Quaternion (x, y, z, w) that turns a glTF camera (looking along -z, y up) toward `target`."""
     backward = np.subtract(eye, target).astype(np.float64)
@@ -207,6 +212,16 @@ class GltfWriter:
         primitive = {"attributes": attributes, "indices": indices, "material": len(self.materials) - 1}
         self.meshes.append({"name": name, "primitives": [primitive]})
         self.nodes.append({"name": name, "mesh": len(self.meshes) - 1})
+
+    def place_again(self, name: str, mesh: int, position: Vector, turn: float = 0.0) -> None:
+        """Adds a node that shows the mesh number `mesh` once more, turned about y by `turn` radians and moved."""
+        self.nodes.append({"name": name, "mesh": mesh})
+        self.move_last(position, turn)
+
+    def move_last(self, position: Vector, turn: float) -> None:
+        """Places the last node: turned about y by `turn` radians, then moved."""
+        turned = [0.0, math.sin(0.5 * turn), 0.0, math.cos(0.5 * turn)]
+        self.nodes[-1] |= {"translation": list(position), "rotation": turned}
 
     def add_point_light(self, name: str, position: Vector, intensity: float) -> None:
         """Adds an isotropic point light of `intensity` W/sr."""

@@ -19,6 +19,7 @@ from gltf import (
     make_diffuse,
     make_glass,
     make_mirror,
+    move_mesh,
 )
 from turning import build_profile, turn_profile
 
@@ -132,11 +133,6 @@ TABLE = TableScene(
     window_half=0.65,
     window_center=(0.2, 0.0, 0.0),
 )
-
-
-def move_mesh(mesh: Mesh, offset: Vector) -> Mesh:
-    """The same mesh somewhere else."""
-    return Mesh(mesh.positions + np.array(offset), mesh.normals, mesh.indices)
 
 
 def build_wall(scene: TableScene) -> Mesh:

@@ -79,3 +79,10 @@ def turn_profile(profile: Profile, segments: int) -> Mesh:
     last = (rows - 1) * segments
     triangles.append(np.stack([np.full(segments, rows * segments + 1), last + after, last + here], axis=1))
     return Mesh(spin(profile.points), spin(profile.normals), np.concatenate(triangles))
+
+
+def build_ball(radius: float, rows: int, segments: int) -> Mesh:
+    """Ball about the origin, of `rows` rows between its poles."""
+    polar = np.pi * np.arange(rows + 1) / rows
+    outward = np.stack([np.sin(polar), -np.cos(polar)], axis=1)
+    return turn_profile(Profile(radius * outward, outward), segments)

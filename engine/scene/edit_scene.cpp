@@ -155,7 +155,10 @@ void add_environment(Scene& scene, const JsonPlace& addition, shared::Light& lig
         return;
     if (scene.environment)
         refuse(addition, "the scene has an environment that an image says", "join the images in one");
-    const std::filesystem::path path = read_string(image);
+    const std::string name = read_string(image);
+    if (name.empty() || name.find('\0') != std::string::npos)
+        refuse(image, "it names no file", "give the path of an equirectangular EXR file");
+    const std::filesystem::path path = name;
     const double rotation = read_number_or(find_member(addition, "rotation"), 0.0, {-TURN, TURN});
     const std::vector<unsigned char> bytes = read_image_file(path.string());
     const std::string hash = hash_bytes({reinterpret_cast<const char*>(bytes.data()), bytes.size()});

@@ -63,7 +63,10 @@ class Scene:
 
     @property
     def lights(self) -> list[dict[str, Any]]:
-        """One entry per light: name, kind, position, intensity per channel, and what its kind has (`add_light`)."""
+        """One entry per light: name, kind, position, intensity per channel, and what its kind has (`add_light`).
+
+        Of an environment by an image, the intensity is the mean radiance.
+        """
         return [dict(row) for row in self._native.lights]
 
     @property

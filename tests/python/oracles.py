@@ -144,6 +144,20 @@ def cardioid(t: ArrayLike, radius: float) -> Doubles:
     return radius / 3.0 * np.stack([2 * np.cos(t) - np.cos(2 * t), 2 * np.sin(t) - np.sin(2 * t)], axis=-1)
 
 
+def nephroid(t: ArrayLike, radius: float) -> Doubles:
+    """Caustic of parallel light along +x, (…, 2), touched by what met the wall at the angle t: oracle 3."""
+    t = np.asarray(t, dtype=np.float64)
+    return radius / 4.0 * np.stack([3 * np.cos(t) - np.cos(3 * t), 3 * np.sin(t) - np.sin(3 * t)], axis=-1)
+
+
+def fold_flux(width: float, length: float, focal_length: float, curvature_radius: float, irradiance: float) -> float:
+    """Flux of the two sheets that end at a caustic, on a strip of `width` inside it: oracle 6, W.
+
+    The irradiance at distance s is E s' √(2/(ρ s)), E what the light would give where it does not converge.
+    """
+    return irradiance * focal_length * np.sqrt(2.0 / curvature_radius) * 2.0 * np.sqrt(width) * length
+
+
 @dataclass(frozen=True)
 class _Rays:
     """Families of reflected light, one row per direction from the light, each a line across the floor.
@@ -350,3 +364,58 @@ class MirrorCylinder:
                 inside = (jx >= 0) & (jx < mask.shape[0]) & (jz >= 0) & (jz < mask.shape[1])
                 mask[jx[inside], jz[inside]] = True
         return mask
+
+
+# ---- 7: ball lens ----------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class BallLens:
+    """A ball of `radius` and `ior` about (0, `distance`, 0), parallel light of `irradiance` straight down.
+
+    Light that is refracted twice; b is its distance from the axis where it comes from, y where it lands, below 0 on
+    the other side.
+    """
+
+    radius: float
+    ior: float
+    distance: float
+    irradiance: float
+
+    def landing(self, b: ArrayLike) -> Doubles:
+        """Where light lands; inf where it never does."""
+        turn, away = self._bend(b)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.where(turn < np.pi / 2.0, (away - self.distance * np.sin(turn)) / np.cos(turn), np.inf)
+
+    def _bend(self, b: ArrayLike) -> tuple[Doubles, Doubles]:
+        away = np.asarray(b, dtype=np.float64)
+        return 2.0 * (np.arcsin(away / self.radius) - np.arcsin(away / (self.radius * self.ior))), away
+
+    def transmittance(self, b: ArrayLike) -> Doubles:
+        """Share that passes both faces."""
+        sine = np.asarray(b, dtype=np.float64) / self.radius
+        return (1.0 - fresnel_reflectance(np.sqrt(1.0 - sine**2), self.ior)) ** 2
+
+    @property
+    def focus(self) -> float:
+        """Paraxial focus, m behind the middle."""
+        return self.radius * self.ior / (2.0 * (self.ior - 1.0))
+
+    def find_flux(self, edges: ArrayLike, *, count: int = 4_000_000) -> Doubles:
+        """Flux on each annulus between radii of the floor: the midpoint rule over equal areas of the light."""
+        b = self.radius * np.sqrt((np.arange(count) + 0.5) / count)
+        flux = self.irradiance * np.pi * self.radius**2 / count * self.transmittance(b)
+        return np.histogram(np.abs(self.landing(b)), np.asarray(edges, dtype=np.float64), weights=flux)[0]
+
+    def irradiance_at(self, rho: float, *, count: int = 200_000) -> float:
+        """Irradiance at distance `rho` > 0 from the axis: E Σ T b/(ρ |dy/db|) over all b that land there."""
+        b = self.radius * (np.arange(count) + 0.5) / count
+        y = self.landing(b)
+        total = 0.0
+        for side in (rho, -rho):
+            off = y - side
+            for i in np.flatnonzero((off[:-1] * off[1:] <= 0.0) & np.isfinite(off[:-1]) & np.isfinite(off[1:])):
+                slope = abs(y[i + 1] - y[i]) / (b[i + 1] - b[i])
+                total += float(self.transmittance(b[i]) * b[i] / (rho * slope))
+        return self.irradiance * total

@@ -120,6 +120,17 @@ def test_one_bright_texel_is_a_sun(tmp_path: Path) -> None:
     np.testing.assert_allclose(middle[0], middle[1], atol=0.01)
 
 
+def test_caustics_of_parts_of_the_sky_add_up(tmp_path: Path) -> None:
+    random = np.random.default_rng(4)
+    whole = random.uniform(0.0, 1.0, (16, 32, 3)) ** 4
+    left = whole * (np.arange(32) < 11)[None, :, None]
+    flux = [
+        pl.trace_photons(light_floor(tmp_path / name, sky, add_optics), emitted=PHOTONS).total_flux
+        for name, sky in (("whole", whole), ("left", left), ("right", whole - left))
+    ]
+    np.testing.assert_allclose(flux[1] + flux[2], flux[0], rtol=0.01)
+
+
 def look(scene: pl.Scene, target: tuple[float, float, float], yfov: float = 0.02) -> Doubles:
     camera = pl.Camera(
         position=(0.0, 1.0, 0.0), target=tuple(np.array([0.0, 1.0, 0.0]) + target), yfov=yfov, up=(0.1, 1.0, 0.2)
@@ -274,6 +285,9 @@ def test_wrong_environments_are_refused(tmp_path: Path) -> None:
     ):
         with pytest.raises(pl.PhotonLoupeError, match=message):
             scene.add_light("environment", **told)
+    for name in ("", "a\0b"):
+        with pytest.raises(pl.SceneError, match="/image: it names no file"):
+            scene.restore([{"add": "light", "kind": "environment", "image": name}])
     with pytest.raises(pl.PhotonLoupeError, match="not a point light"):
         scene.add_light("point", image=sky)
     scene.add_light("environment", image=sky)

@@ -42,6 +42,23 @@ def test_unknown_check_is_refused(monkeypatch: pytest.MonkeyPatch, capsys: pytes
     assert "clang-tidy" in capsys.readouterr().err
 
 
+def test_fix_writes_what_is_generated_and_fails_where_it_cannot(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    written: list[str] = []
+
+    def run(*command: str) -> bool:
+        written.extend(command)
+        return "nanobind.stubgen" not in command
+
+    monkeypatch.setattr(lint, "run", run)
+    monkeypatch.setattr(lint, "CHECKS", {"good": lambda: True})
+    monkeypatch.setattr("sys.argv", ["lint", "--fix"])
+    assert lint.main() == 1
+    assert "lint FAILED: what is generated" in capsys.readouterr().out
+    assert {"tests/python/manual_tables.py", "format"} <= set(written)
+
+
 def test_failed_check_fails_the_whole(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.setattr(lint, "CHECKS", {"good": lambda: True, "bad": lambda: False, "other": lambda: True})
     monkeypatch.setattr("sys.argv", ["lint"])
