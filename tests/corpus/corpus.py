@@ -42,7 +42,7 @@ HEADER = """# Real files
 Written by `./photonloupe python tests/corpus/corpus.py` on the software device. Every file below is fetched from its
 package ([tests/corpus/packages.json](../tests/corpus/packages.json)), loaded, given `--light auto` where it has no
 light, traced with {photons:,} photons, and rendered at {width} × {height}. What no photon would stay on, all of it
-metal or out of the light's reach, gets a floor. A picture counts that is finite and not black; nobody compared it with
+metal or out of the light's reach, gets a floor; what its own lamps leave black, a light. A picture counts that is finite and not black; nobody compared it with
 another renderer's. `pytest tests/corpus` runs the same as tests.
 
 {count} files: {loaded} load, {rendered} render.
@@ -141,6 +141,12 @@ def trace(scene: pl.Scene, result: Result) -> pl.PhotonMap:
         return pl.trace_photons(scene, PHOTONS, seed=1, store="all")
 
 
+def render(scene: pl.Scene, result: Result) -> np.ndarray:
+    """Picture of the scene by its own camera, or one that fits."""
+    photons = trace(scene, result)
+    return np.asarray(pl.render(scene, photons, width=WIDTH, height=HEIGHT, samples=1))
+
+
 def run_file(name: str) -> Result:
     """Load, light, trace and render a file; a refusal is part of the result."""
     path = find_file(name)
@@ -150,8 +156,11 @@ def run_file(name: str) -> Result:
         scene = pl.load_scene(path)
         result.loaded, result.triangles = "yes", scene.triangle_count
         result.ignored = summarize(scene.report["ignored"])
-        photons = trace(scene, result)
-        image = np.asarray(pl.render(scene, photons, width=WIDTH, height=HEIGHT, samples=1))
+        image = render(scene, result)
+        if image.max() == 0 and not result.added:  # its own lamps shine away from what the camera sees
+            scene.add_light("auto")
+            result.added.append("light")
+            image = render(scene, result)
         if not np.isfinite(image).all():
             result.rendered = "NaN"
         else:
