@@ -56,6 +56,12 @@ std::array<double, 3> take_rgb(const glm::vec4& v) {
     return {v.r, v.g, v.b};
 }
 
+const char* name_alpha_mode(const shared::Material& material) {
+    return material.alpha.y == shared::ALPHA_MASK    ? "mask"
+           : material.alpha.y == shared::ALPHA_BLEND ? "blend"
+                                                     : "opaque";
+}
+
 nb::list list_materials(const Scene& scene) {
     nb::list rows;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
@@ -70,6 +76,14 @@ nb::list list_materials(const Scene& scene) {
         row["emission"] = take_rgb(material.emission_transmission);
         row["roughness"] = material.roughness_thin.x;
         row["thin"] = material.roughness_thin.y > 0;
+        row["alpha"] = material.alpha.x;
+        row["alpha_mode"] = name_alpha_mode(material);
+        row["dispersion"] = material.alpha.w;
+        row["diffuse_transmission"] = material.translucency.w;
+        row["diffuse_transmission_color"] = take_rgb(material.translucency);
+        row["gloss"] = take_rgb(material.gloss);
+        row["coat"] = material.coat.x;
+        row["coat_roughness"] = material.coat.y;
         rows.append(row);
     }
     return rows;

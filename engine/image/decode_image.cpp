@@ -16,15 +16,6 @@
 namespace photonloupe {
 namespace {
 
-void allocate(RgbaImage& image, std::uint64_t width, std::uint64_t height) {
-    if (width == 0 || height == 0 || width > MAX_TEXTURE_SIDE || height > MAX_TEXTURE_SIDE)
-        throw Error("its header says " + std::to_string(width) + " × " + std::to_string(height) +
-                    " pixels; textures have 1 to " + std::to_string(MAX_TEXTURE_SIDE) + " on a side");
-    image.width = static_cast<std::uint32_t>(width);
-    image.height = static_cast<std::uint32_t>(height);
-    image.texels.resize(width * height);
-}
-
 unsigned char* get_bytes(RgbaImage& image) {
     return reinterpret_cast<unsigned char*>(image.texels.data());
 }
@@ -40,8 +31,7 @@ RgbaImage decode_jpeg(std::span<const unsigned char> bytes) {
         refuse();
     if (width <= 0 || height <= 0)
         throw Error("it is no readable JPEG: its header gives no size");
-    RgbaImage image;
-    allocate(image, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height));
+    RgbaImage image = make_texels(static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height));
     // A warning, such as a few bytes too many, leaves a picture.
     const int flags = TJFLAG_ACCURATEDCT | TJFLAG_LIMITSCANS;
     if (tjDecompress2(decoder.get(), bytes.data(), size, get_bytes(image), width, 0, height, TJPF_RGBA, flags) != 0 &&
@@ -54,8 +44,7 @@ RgbaImage decode_webp(std::span<const unsigned char> bytes) {
     int width = 0, height = 0;
     if (!WebPGetInfo(bytes.data(), bytes.size(), &width, &height))
         throw Error("it is no readable WebP");
-    RgbaImage image;
-    allocate(image, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height));
+    RgbaImage image = make_texels(static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height));
     const std::size_t size = image.texels.size() * sizeof(std::uint32_t);
     if (!WebPDecodeRGBAInto(bytes.data(), bytes.size(), get_bytes(image), size, 4 * width))
         throw Error("its WebP data is damaged");
@@ -69,6 +58,16 @@ bool starts_with(std::span<const unsigned char> bytes, std::string_view signatur
 }
 
 } // namespace
+
+RgbaImage make_texels(std::uint64_t width, std::uint64_t height) {
+    if (width == 0 || height == 0 || width > MAX_TEXTURE_SIDE || height > MAX_TEXTURE_SIDE ||
+        width * height > MAX_TEXTURE_PIXELS)
+        throw Error("its header says " + std::to_string(width) + " × " + std::to_string(height) +
+                    " pixels; textures have 1 to " + std::to_string(MAX_TEXTURE_SIDE) + " on a side, " +
+                    std::to_string(MAX_TEXTURE_PIXELS) + " at most");
+    return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height),
+            std::vector<std::uint32_t>(width * height)};
+}
 
 RgbaImage decode_image(std::span<const unsigned char> bytes) {
     if (starts_with(bytes, "\x89PNG"))

@@ -17,6 +17,10 @@ struct RgbaImage {
 
 // Larger images are refused before memory is taken for them.
 constexpr std::uint32_t MAX_TEXTURE_SIDE = 16384;
+constexpr std::uint64_t MAX_TEXTURE_PIXELS = 1ull << 27;
+
+// An image of zeros. Throws Error for a size that no texture has.
+RgbaImage make_texels(std::uint64_t width, std::uint64_t height);
 
 // Throws Error with the reason, without naming the file.
 RgbaImage decode_image(std::span<const unsigned char> bytes);

@@ -188,10 +188,8 @@ RgbaImage decode_png_texels(const std::vector<unsigned char>& bytes) {
     Reader reader(transfer);
     if (!read_header(reader.png, reader.info, true, MAX_TEXTURE_SIDE))
         throw Error("it is no readable PNG: " + transfer.error);
-    RgbaImage image;
-    image.width = png_get_image_width(reader.png, reader.info);
-    image.height = png_get_image_height(reader.png, reader.info);
-    image.texels.resize(std::size_t{image.width} * image.height);
+    RgbaImage image =
+        make_texels(png_get_image_width(reader.png, reader.info), png_get_image_height(reader.png, reader.info));
     read_all_rows(reader, transfer, reinterpret_cast<unsigned char*>(image.texels.data()), image.height,
                   4ull * image.width);
     return image;

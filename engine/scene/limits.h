@@ -25,6 +25,8 @@ constexpr std::size_t MAX_IMAGES = 4096;
 constexpr std::uint64_t MAX_IMAGE_BYTES = 256ull << 20;
 // Of all textures together, decoded, 4 bytes each: larger ones are halved until they fit.
 constexpr std::uint64_t MAX_TEXELS = 1ull << 27;
+// Of all images together as they are decoded: small files can hold large ones.
+constexpr std::uint64_t MAX_DECODED_TEXELS = 1ull << 31;
 // Transforms are composed along this many parents; exporters stay below 100.
 constexpr std::size_t MAX_NODE_DEPTH = 256;
 // Triangles are 48 bytes, and graphics drivers allow 2 GiB in one allocation: 2^25 · 48 bytes are 1.5 GiB.

@@ -64,6 +64,7 @@ std::uint64_t count_texels(const std::vector<RgbaImage>& images) {
 std::vector<RgbaImage> decode_images(std::vector<ImageFile> files, Scene& scene) {
     std::vector<RgbaImage> images(files.size());
     std::size_t halved = 0;
+    std::uint64_t decoded = 0;
     for (std::size_t i = 0; i < files.size(); ++i) {
         ImageFile& file = files[i];
         try {
@@ -73,6 +74,10 @@ std::vector<RgbaImage> decode_images(std::vector<ImageFile> files, Scene& scene)
             file.problem = error.what();
         }
         file.bytes = {};
+        decoded += images[i].texels.size();
+        if (decoded > MAX_DECODED_TEXELS)
+            throw SceneError(scene.path.string() + ": its images hold more than " +
+                             std::to_string(MAX_DECODED_TEXELS) + " pixels; scale them down");
         if (!file.problem.empty())
             scene.report.ignored.push_back("image " + quote_text(file.name) + ": " + file.problem +
                                            "; its surfaces keep their factors");
