@@ -16,8 +16,8 @@
 namespace photonloupe {
 namespace {
 
-// Diffuse hits one sample may have where paths split: what glass reflects and transmits, what lies on both sides of a leaf
-// and under a gloss.
+// Diffuse hits one sample may have where paths split: what glass reflects and transmits, what lies on both sides of a
+// leaf and under a gloss.
 constexpr std::uint32_t SPLIT_SLOTS = 4;
 // Slots of one chunk: a software device follows their rays in a tenth of a second, which Ctrl-C waits for.
 constexpr std::uint64_t CHUNK_SLOTS = 1ull << 17;

@@ -64,7 +64,7 @@ void run_chunks(const Gathering& about, const gpu::KernelSource& kernel, const s
             settings.count = static_cast<std::uint32_t>(size);
             std::memcpy(bytes.data(), &settings, sizeof settings);
             commands.dispatch_bytes(kernel, bindings, bytes,
-                              (size + per_group - 1) / per_group * about.device.limits().subgroup_size);
+                                    (size + per_group - 1) / per_group * about.device.limits().subgroup_size);
         },
         per_group * about.device.limits().max_group_count);
 }

@@ -51,8 +51,7 @@ public:
           m_texture(scene.paints.empty() ? 0.0f : scene.paints[m_material_index].colors.w) {
         for (const std::uint32_t triangle : triangles)
             split({glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)},
-                  choose_levels(triangle, triangles.size()),
-                  [&](const Corners& part) { add_part(triangle, part); });
+                  choose_levels(triangle, triangles.size()), [&](const Corners& part) { add_part(triangle, part); });
     }
 
     // The light, and its triangles appended to the scene's; nothing if it is dark everywhere.
@@ -84,8 +83,8 @@ public:
 private:
     struct Part {
         std::array<glm::vec3, 3> corners;
-        double weight;          // area times the largest channel of its radiance
-        glm::dvec3 color{0.0};  // its radiance over the largest channel
+        double weight;         // area times the largest channel of its radiance
+        glm::dvec3 color{0.0}; // its radiance over the largest channel
     };
 
     // All parts together carry the light's mean, each chosen by its weight.

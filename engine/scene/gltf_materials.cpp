@@ -53,7 +53,8 @@ void write_volume(const JsonPlace& material, Json& extensions) {
 }
 
 // Members of an extension, where it is there: numbers, colors.
-void write_extension(const JsonPlace& material, const char* name, std::initializer_list<std::pair<const char*, double>> numbers,
+void write_extension(const JsonPlace& material, const char* name,
+                     std::initializer_list<std::pair<const char*, double>> numbers,
                      std::initializer_list<const char*> colors, NumberRange range, Json& extensions) {
     const JsonPlace extension = find_extension(material, name);
     if (!extension.value)
@@ -85,10 +86,10 @@ Json check_material(const JsonPlace& place) {
                     {"diffuseTransmissionColorFactor"}, UNIT, extensions);
     write_extension(place, "KHR_materials_specular", {{"specularFactor", 1.0}}, {"specularColorFactor"}, POWER,
                     extensions);
-    write_extension(place, "KHR_materials_clearcoat", {{"clearcoatFactor", 0.0}, {"clearcoatRoughnessFactor", 0.0}},
-                    {}, UNIT, extensions);
-    extensions["KHR_materials_dispersion"]["dispersion"] = read_number_or(
-        find_member(find_extension(place, "KHR_materials_dispersion"), "dispersion"), 0.0, DISPERSION);
+    write_extension(place, "KHR_materials_clearcoat", {{"clearcoatFactor", 0.0}, {"clearcoatRoughnessFactor", 0.0}}, {},
+                    UNIT, extensions);
+    extensions["KHR_materials_dispersion"]["dispersion"] =
+        read_number_or(find_member(find_extension(place, "KHR_materials_dispersion"), "dispersion"), 0.0, DISPERSION);
     return {{"name", read_string_or(find_member(place, "name"), "")},
             {"pbrMetallicRoughness",
              {{"baseColorFactor", read_numbers_or(find_member(pbr, "baseColorFactor"), {1, 1, 1, 1}, UNIT)},

@@ -24,17 +24,18 @@ struct SlotPlace {
     const char* owner; // "": the material itself
     const char* member;
 };
-constexpr std::array<SlotPlace, TEXTURE_SLOT_COUNT> SLOTS{{{"pbrMetallicRoughness", "baseColorTexture"},
-                                                           {"pbrMetallicRoughness", "metallicRoughnessTexture"},
-                                                           {"", "normalTexture"},
-                                                           {"", "emissiveTexture"},
-                                                           {"KHR_materials_transmission", "transmissionTexture"},
-    {"KHR_materials_diffuse_transmission", "diffuseTransmissionTexture"},
-    {"KHR_materials_diffuse_transmission", "diffuseTransmissionColorTexture"},
-    {"KHR_materials_specular", "specularTexture"},
-    {"KHR_materials_specular", "specularColorTexture"},
-    {"KHR_materials_clearcoat", "clearcoatTexture"},
-    {"KHR_materials_clearcoat", "clearcoatRoughnessTexture"}}};
+constexpr std::array<SlotPlace, TEXTURE_SLOT_COUNT> SLOTS{
+    {{"pbrMetallicRoughness", "baseColorTexture"},
+     {"pbrMetallicRoughness", "metallicRoughnessTexture"},
+     {"", "normalTexture"},
+     {"", "emissiveTexture"},
+     {"KHR_materials_transmission", "transmissionTexture"},
+     {"KHR_materials_diffuse_transmission", "diffuseTransmissionTexture"},
+     {"KHR_materials_diffuse_transmission", "diffuseTransmissionColorTexture"},
+     {"KHR_materials_specular", "specularTexture"},
+     {"KHR_materials_specular", "specularColorTexture"},
+     {"KHR_materials_clearcoat", "clearcoatTexture"},
+     {"KHR_materials_clearcoat", "clearcoatRoughnessTexture"}}};
 
 JsonPlace find_extension(const JsonPlace& owner, const char* name) {
     return find_member(find_member(owner, "extensions"), name);

@@ -76,8 +76,8 @@ std::vector<RgbaImage> decode_images(std::vector<ImageFile> files, Scene& scene)
         file.bytes = {};
         decoded += images[i].texels.size();
         if (decoded > MAX_DECODED_TEXELS)
-            throw SceneError(scene.path.string() + ": its images hold more than " +
-                             std::to_string(MAX_DECODED_TEXELS) + " pixels; scale them down");
+            throw SceneError(scene.path.string() + ": its images hold more than " + std::to_string(MAX_DECODED_TEXELS) +
+                             " pixels; scale them down");
         if (!file.problem.empty())
             scene.report.ignored.push_back("image " + quote_text(file.name) + ": " + file.problem +
                                            "; its surfaces keep their factors");
@@ -152,8 +152,10 @@ float decode(const Scene& scene, const shared::Texture& texture, std::uint32_t c
 
 glm::dvec4 load_texel(const Scene& scene, const shared::Texture& texture, double column, double row) {
     const glm::uvec4& place = texture.place;
-    const std::uint32_t x = wrap_texel(column, place.y, place.w & shared::TEXTURE_CLAMP_U, place.w & shared::TEXTURE_MIRROR_U);
-    const std::uint32_t y = wrap_texel(row, place.z, place.w & shared::TEXTURE_CLAMP_V, place.w & shared::TEXTURE_MIRROR_V);
+    const std::uint32_t x =
+        wrap_texel(column, place.y, place.w & shared::TEXTURE_CLAMP_U, place.w & shared::TEXTURE_MIRROR_U);
+    const std::uint32_t y =
+        wrap_texel(row, place.z, place.w & shared::TEXTURE_CLAMP_V, place.w & shared::TEXTURE_MIRROR_V);
     const std::uint32_t codes = scene.atlas[place.x + std::size_t{y} * place.y + x];
     glm::dvec4 value;
     for (int channel = 0; channel < 4; ++channel)

@@ -50,7 +50,7 @@ struct SceneReport {
     bool has_translucency = false;
     bool has_layers = false; // gloss or coat
     bool has_dispersion = false;
-    bool has_colored_lamps = false; // textured unevenly
+    bool has_colored_lamps = false;  // textured unevenly
     bool has_mixed_receiver = false; // a surface that is diffuse in part
     bool has_diffuse = false;
     bool has_emission = false;

@@ -71,7 +71,10 @@ class Scene:
 
     @property
     def materials(self) -> list[dict[str, Any]]:
-        """One entry per material: its factors, which textures multiply; colors linear, absorption in 1/m, emission in W/(m² sr)."""
+        """One entry per material: its factors, which textures multiply.
+
+        Colors are linear, absorption is in 1/m, emission in W/(m² sr).
+        """
         return [dict(row) for row in self._native.materials]
 
     @property

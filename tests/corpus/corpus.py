@@ -42,8 +42,8 @@ HEADER = """# Real files
 Written by `./photonloupe python tests/corpus/corpus.py` on the software device. Every file below is fetched from its
 package ([tests/corpus/packages.json](../tests/corpus/packages.json)), loaded, given `--light auto` where it has no
 light, traced with {photons:,} photons, and rendered at {width} × {height}. What no photon would stay on, all of it
-metal or out of the light's reach, gets a floor; what its own lamps leave black, a light. A picture counts that is finite and not black; nobody compared it with
-another renderer's. `pytest tests/corpus` runs the same as tests.
+metal or out of the light's reach, gets a floor; what its own lamps leave black, a light. A picture counts that is
+finite and not black; nobody compared it with another renderer's. `pytest tests/corpus` runs the same as tests.
 
 {count} files: {loaded} load, {rendered} render.
 

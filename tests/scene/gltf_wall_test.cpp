@@ -32,9 +32,9 @@ TEST(gltf_wall, files_of_gltf_1_are_told_what_converts_them) {
 }
 
 TEST(gltf_wall, required_extensions_of_looks_are_listed) {
-    const Json names{"KHR_texture_basisu",
-                   "KHR_materials_unlit", "KHR_materials_variants", "KHR_materials_pbrSpecularGlossiness",
-                     "MSFT_texture_dds",    "EXT_texture_avif",       "EXT_lights_image_based"};
+    const Json names{
+        "KHR_texture_basisu", "KHR_materials_unlit", "KHR_materials_variants", "KHR_materials_pbrSpecularGlossiness",
+        "MSFT_texture_dds",   "EXT_texture_avif",    "EXT_lights_image_based"};
     Json document = make_document();
     document["extensionsRequired"] = names;
     const Scene scene = load_document(document);
