@@ -41,7 +41,7 @@ Scene load_scene_from_memory(std::span<const unsigned char> bytes, const std::fi
     scene.report.ignored = approved.ignored;
     const tinygltf::Model model = parse_approved(approved, name);
     const std::vector<PlacedNode> nodes = place_nodes(model);
-    load_textures(std::move(approved.textures), std::move(approved.images), scene);
+    load_textures(approved.textures, approved.images, scene);
     load_triangles(model, approved.columns, nodes, scene);
     load_materials(model, scene);
     load_lights(model, nodes, scene);

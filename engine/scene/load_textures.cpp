@@ -61,25 +61,25 @@ std::uint64_t count_texels(const std::vector<RgbaImage>& images) {
 }
 
 // Images by index; empty ones are not there.
-std::vector<RgbaImage> decode_images(std::vector<ImageFile> files, Scene& scene) {
+std::vector<RgbaImage> decode_images(const std::vector<ImageFile>& files, Scene& scene) {
     std::vector<RgbaImage> images(files.size());
     std::size_t halved = 0;
     std::uint64_t decoded = 0;
     for (std::size_t i = 0; i < files.size(); ++i) {
-        ImageFile& file = files[i];
+        const ImageFile& file = files[i];
+        std::string problem = file.problem;
         try {
             if (!file.bytes.empty())
                 images[i] = decode_image(file.bytes);
         } catch (const Error& error) {
-            file.problem = error.what();
+            problem = error.what();
         }
-        file.bytes = {};
         decoded += images[i].texels.size();
         if (decoded > MAX_DECODED_TEXELS)
             throw SceneError(scene.path.string() + ": its images hold more than " + std::to_string(MAX_DECODED_TEXELS) +
                              " pixels; scale them down");
-        if (!file.problem.empty())
-            scene.report.ignored.push_back("image " + quote_text(file.name) + ": " + file.problem +
+        if (!problem.empty())
+            scene.report.ignored.push_back("image " + quote_text(file.name) + ": " + problem +
                                            "; its surfaces keep their factors");
         while (count_texels(images) > MAX_TEXELS) {
             auto largest = std::max_element(images.begin(), images.end(), [](const auto& a, const auto& b) {
@@ -165,8 +165,8 @@ glm::dvec4 load_texel(const Scene& scene, const shared::Texture& texture, double
 
 } // namespace
 
-void load_textures(std::vector<MaterialTextures> materials, std::vector<ImageFile> files, Scene& scene) {
-    const std::vector<RgbaImage> images = decode_images(std::move(files), scene);
+void load_textures(const std::vector<MaterialTextures>& materials, const std::vector<ImageFile>& files, Scene& scene) {
+    const std::vector<RgbaImage> images = decode_images(files, scene);
     if (count_texels(images) == 0)
         return;
     scene.atlas = make_srgb_table();

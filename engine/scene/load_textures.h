@@ -9,7 +9,7 @@ namespace photonloupe {
 
 // Fills the scene's atlas and textures, and for each material its paint. Images that can't be decoded are listed among
 // what is ignored, and their surfaces keep their factors; too many texels are halved, with a note.
-void load_textures(std::vector<MaterialTextures> materials, std::vector<ImageFile> images, Scene& scene);
+void load_textures(const std::vector<MaterialTextures>& materials, const std::vector<ImageFile>& images, Scene& scene);
 
 // What a texture makes of a factor of 1, least and most, by channel.
 struct TextureRange {
