@@ -67,6 +67,9 @@ public:
     // The scene on the device, kept until another one is asked for.
     std::shared_ptr<const SceneBuffers> find_buffers(const Scene& scene);
 
+    // The scene's lights as a store of photons draws from them, kept like its buffers.
+    std::shared_ptr<const EmitterTable> find_emitters(const Scene& scene, Store store);
+
     // All stages run again, whatever they are asked: for measuring.
     void forget();
 
@@ -84,6 +87,7 @@ private:
 
     gpu::Device& m_device;
     Memo<SceneBuffers> m_scene_buffers{Lifetime::until_next};
+    Memo<EmitterTable> m_emitters{Lifetime::until_next};
     Memo<Photons> m_traced{Lifetime::while_held}; // by those that share its columns
     Memo<ScriptedPhotons> m_scripted{Lifetime::while_held};
     Memo<RelaxedRun> m_relaxed{Lifetime::while_held};

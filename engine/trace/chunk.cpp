@@ -3,6 +3,8 @@
 #include "trace/chunk.h"
 
 #include <algorithm>
+#include <bit>
+#include <cassert>
 #include <numeric>
 
 #include "shared/random.h"
@@ -48,11 +50,11 @@ std::vector<std::uint32_t> order_lanes(std::uint32_t size, Emission emission) {
     std::iota(order.begin(), order.end(), 0u);
     if (emission == Emission::random)
         return order;
-    std::vector<std::uint32_t> keys(size);
+    // Of a (0, 2)-sequence each elementary interval holds one of the first 2^n points: its number is the point's place.
+    assert(std::has_single_bit(size) && size > 1);
+    const int unused_bits = std::countl_zero(size) + 1;
     for (std::uint32_t i = 0; i < size; ++i)
-        keys[i] = interleave_bits(shared::sobol_bits(i, 0), shared::sobol_bits(i, 1));
-    std::sort(order.begin(), order.end(),
-              [&](std::uint32_t a, std::uint32_t b) { return keys[a] != keys[b] ? keys[a] < keys[b] : a < b; });
+        order[interleave_bits(shared::sobol_bits(i, 0), shared::sobol_bits(i, 1)) >> unused_bits] = i;
     return order;
 }
 

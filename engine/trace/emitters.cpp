@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 
+#include "core/error.h"
 #include "trace/projection_map.h"
 
 namespace photonloupe {

@@ -6,7 +6,7 @@
 
 #include "scene/scene.h"
 #include "shared/trace.h"
-#include "trace/trace_photons.h"
+#include "trace/settings.h"
 
 namespace photonloupe {
 

@@ -40,9 +40,10 @@ struct TraceKernels {
 
 class Tracer {
 public:
-    Tracer(gpu::Device& device, const Scene& scene, const SceneBuffers& buffers, const TraceSettings& settings)
+    Tracer(gpu::Device& device, const Scene& scene, const SceneBuffers& buffers, const EmitterTable& emitters,
+           const TraceSettings& settings)
         : m_device(device), m_scene(scene), m_buffers(buffers), m_settings(settings),
-          m_table(build_emitters(scene, settings.store)),
+          m_table(emitters),
           m_emitters(gpu::make_buffer(device, m_table.emitters, "emitters")),
           m_cells(gpu::make_buffer(device, m_table.cells, "projection cells")),
           m_cell_rows(gpu::make_buffer(device, m_table.cell_rows, "projection rows")),
@@ -77,7 +78,7 @@ private:
     const Scene& m_scene;
     const SceneBuffers& m_buffers;
     const TraceSettings& m_settings;
-    EmitterTable m_table;
+    const EmitterTable& m_table;
     gpu::Buffer m_emitters;
     gpu::Buffer m_cells;
     gpu::Buffer m_cell_rows;
@@ -390,9 +391,9 @@ TracedPhotons Tracer::finish(const Progress& progress) {
 } // namespace
 
 TracedPhotons trace_photons(gpu::Device& device, const Scene& scene, const SceneBuffers& buffers,
-                            const TraceSettings& settings, const Progress& progress) {
+                            const EmitterTable& emitters, const TraceSettings& settings, const Progress& progress) {
     require_settings("trace_photons", settings);
-    return Tracer(device, scene, buffers, settings).run(progress);
+    return Tracer(device, scene, buffers, emitters, settings).run(progress);
 }
 
 } // namespace photonloupe

@@ -5,6 +5,7 @@
 #include "core/progress.h"
 #include "photons/photon_map.h"
 #include "scene/scene_buffers.h"
+#include "trace/emitters.h"
 #include "trace/settings.h"
 
 namespace photonloupe {
@@ -30,6 +31,7 @@ struct TracedPhotons {
 
 // Throws SceneError when nothing can be stored, MemoryError with what would fit, Cancelled on request.
 TracedPhotons trace_photons(gpu::Device& device, const Scene& scene, const SceneBuffers& buffers,
-                            const TraceSettings& settings, const Progress& progress = {});
+                            const EmitterTable& emitters, const TraceSettings& settings,
+                            const Progress& progress = {});
 
 } // namespace photonloupe

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ray against scene: BVH traversal with a stack in shared memory, watertight triangles (Woop, Benthin, Wald 2013).
 // Input: geometry, texels: one SceneHeader, the BVH nodes (2 texels each), the triangles (3 texels each).
-// Nodes and triangles share a buffer so that one step of the traversal, whichever it meets, is the same four loads:
-// on SIMD without branches every lane pays for every load in the loop.
+// One loop goes down to a leaf, another through its triangles: on SIMD without branches every lane pays for every load in a
+// loop, whatever it meets there.
 #include "shared/scene.h"
 #include "shared/turns.glsl"
 #pragma binding texel geometry
@@ -103,24 +103,14 @@ Hit intersect_scene(Ray ray, float t_max, bool any_hit) {
     uint base = stack;
     bool alive = enter_box(root_lo.xyz, root_hi.xyz, ray.origin, inverse, t_max) < INFINITY;
     while (alive) {
-        ++turns;
-        uint first = node & ((1u << PACKED_COUNT_SHIFT) - 1u);
-        uint count = node >> PACKED_COUNT_SHIFT;
-        bool is_leaf = count > 0u;
-        uint texel = is_leaf ? triangle_texels + 3u * first : 1u + 2u * first;
-        vec4 a = geometry_at(texel);
-        vec4 b = geometry_at(texel + 1u);
-        vec4 c = geometry_at(texel + 2u);
-        vec4 d = geometry_at(texel + 3u);
-        bool pop = true;
-        if (is_leaf) {
-            if (meet_triangle(a.xyz, b.xyz, c.xyz, ray.origin, sheared, hit)) {
-                hit.triangle = first;
-                found = true;
-            }
-            pop = count == 1u;
-            node = (first + 1u) | (count - 1u) << PACKED_COUNT_SHIFT;
-        } else {
+        // Down to the next leaf, or out.
+        while (alive && (node >> PACKED_COUNT_SHIFT) == 0u) {
+            ++turns;
+            uint texel = 1u + 2u * node;
+            vec4 a = geometry_at(texel);
+            vec4 b = geometry_at(texel + 1u);
+            vec4 c = geometry_at(texel + 2u);
+            vec4 d = geometry_at(texel + 3u);
             float t0 = enter_box(a.xyz, b.xyz, ray.origin, inverse, hit.t);
             float t1 = enter_box(c.xyz, d.xyz, ray.origin, inverse, hit.t);
             bool swap = t1 < t0;
@@ -128,16 +118,33 @@ Hit intersect_scene(Ray ray, float t_max, bool any_hit) {
                 traversal_stack[stack] = swap ? pack_node(a, b) : pack_node(c, d);
                 stack += gl_WorkGroupSize.x;
             }
-            pop = min(t0, t1) == INFINITY;
             node = swap ? pack_node(c, d) : pack_node(a, b);
+            if (min(t0, t1) == INFINITY) {
+                alive = stack > base;
+                stack -= alive ? gl_WorkGroupSize.x : 0u;
+                node = traversal_stack[stack];
+            }
+            alive = alive && has_turns_left();
         }
-        // A node behind the nearest hit so far is taken all the same: its children's boxes are missed.
-        if (pop) {
-            alive = stack > base;
-            stack -= alive ? gl_WorkGroupSize.x : 0u;
-            node = traversal_stack[stack];
+        uint first = node & ((1u << PACKED_COUNT_SHIFT) - 1u);
+        uint end = first + (node >> PACKED_COUNT_SHIFT);
+        while (alive && first < end) {
+            ++turns;
+            uint texel = triangle_texels + 3u * first;
+            vec3 v0 = geometry_at(texel).xyz;
+            vec3 v1 = geometry_at(texel + 1u).xyz;
+            vec3 v2 = geometry_at(texel + 2u).xyz;
+            if (meet_triangle(v0, v1, v2, ray.origin, sheared, hit)) {
+                hit.triangle = first;
+                found = true;
+            }
+            ++first;
         }
-        alive = alive && !(any_hit && found) && has_turns_left();
+        // A leaf behind the nearest hit so far is taken all the same: its triangles are missed.
+        bool more = stack > base && !(any_hit && found);
+        stack -= more ? gl_WorkGroupSize.x : 0u;
+        node = traversal_stack[stack];
+        alive = alive && more && has_turns_left();
     }
     if (!found) hit.t = INFINITY;
     return hit;

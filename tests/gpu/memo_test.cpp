@@ -51,6 +51,13 @@ TEST_F(Memory, traces_again_what_nobody_holds) {
     EXPECT_GT(count([&] { trace(); }), 0u);
 }
 
+TEST_F(Memory, aims_its_lights_once) {
+    const auto emitters = m_bench.find_emitters(m_scene, Store::caustic);
+    EXPECT_EQ(m_bench.find_emitters(m_scene, Store::caustic), emitters);
+    EXPECT_NE(m_bench.find_emitters(m_scene, Store::all), emitters); // not aimed
+    EXPECT_GT(emitters->cells.size(), 1u);
+}
+
 TEST_F(Memory, hands_out_photons_as_they_were_traced) {
     const auto photons = trace();
     run_script(*photons, 0.5);

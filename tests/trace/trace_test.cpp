@@ -33,7 +33,7 @@ struct Columns {
 
 Columns trace(const Scene& scene, const TraceSettings& settings, gpu::Device& device = get_device()) {
     const SceneBuffers buffers = upload_scene(device, scene);
-    const TracedPhotons traced = trace_photons(device, scene, buffers, settings);
+    const TracedPhotons traced = trace_photons(device, scene, buffers, build_emitters(scene, settings.store), settings);
     const PhotonMap& map = traced.map;
     Columns columns{map.position_emitter.read<glm::uvec4>(map.count),
                     map.normal_index.read<glm::uvec4>(map.count),
