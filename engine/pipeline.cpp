@@ -60,8 +60,7 @@ std::shared_ptr<const SceneBuffers> Workbench::find_buffers(const Scene& scene) 
 }
 
 std::shared_ptr<const EmitterTable> Workbench::find_emitters(const Scene& scene, Store store) {
-    return m_emitters.find(MemoKey(scene.hash, static_cast<int>(store)),
-                           [&] { return build_emitters(scene, store); });
+    return m_emitters.find(MemoKey(scene.hash, static_cast<int>(store)), [&] { return build_emitters(scene, store); });
 }
 
 std::shared_ptr<Photons> Workbench::trace_photons(const Scene& scene, const TraceSettings& settings,
@@ -79,8 +78,8 @@ Photons Workbench::trace_anew(const Scene& scene, const TraceSettings& settings,
     m_device.compile_ahead(list_render_kernels(scene, settings.store, {}));
     expect_tree(m_device, settings.count);
     m_device.compile_ahead({name_plot_kernel(scene)});
-    TracedPhotons traced = photonloupe::trace_photons(
-        m_device, scene, *find_buffers(scene), *find_emitters(scene, settings.store), settings, progress);
+    TracedPhotons traced = photonloupe::trace_photons(m_device, scene, *find_buffers(scene),
+                                                      *find_emitters(scene, settings.store), settings, progress);
     Photons photons;
     photons.map = std::move(traced.map);
     photons.report = traced.report;

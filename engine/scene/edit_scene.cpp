@@ -23,6 +23,7 @@ namespace {
 
 using glm::dvec3;
 
+constexpr NumberRange TIME{-1e9, 1e9}; // s
 constexpr NumberRange POWER{0.0, 1e30}, PLACE{-MAX_COORDINATE, MAX_COORDINATE}, ANGLE{0.0, 1.5707963267948966};
 // Of the key light: where it stands, in radii of the bounds' ball from its middle, and the irradiance there.
 const dvec3 KEY_PLACE(0.8, 1.8, 1.2);
@@ -31,8 +32,8 @@ constexpr double KEY_IRRADIANCE = 3.0; // W/m²
 constexpr double FLOOR_REACH = 4.0, FLOOR_GAP = 1e-3;
 constexpr float FLOOR_ALBEDO = 0.5f;
 constexpr std::size_t MOST_ADDITIONS = 256;
-constexpr std::string_view MEMBERS[] = {"add",  "kind", "position", "direction", "intensity", "color",
-                                        "size", "cone", "y",        "image",     "hash",      "rotation"};
+constexpr std::string_view MEMBERS[] = {"add",  "kind", "position", "direction", "intensity", "color", "size",
+                                        "cone", "y",    "image",    "hash",      "rotation",  "time"};
 constexpr double TURN = 6.283185307179586; // radians
 
 dvec3 read_vector(const JsonPlace& place, std::vector<double> fallback, NumberRange range) {
@@ -226,6 +227,13 @@ void add_floor(Scene& scene, const JsonPlace& addition) {
     rebuild(scene);
 }
 
+// The file again, with its things where they are then.
+Scene pose_scene(const Scene& scene, const JsonPlace& addition) {
+    if (!scene.additions.empty())
+        refuse(addition, "the time comes after what was added", "give the time first");
+    return load_scene(scene.path, read_number(require_member(addition, "time"), TIME));
+}
+
 } // namespace
 
 Scene add_to_scene(const Scene& scene, const std::string& text) {
@@ -238,14 +246,14 @@ Scene add_to_scene(const Scene& scene, const std::string& text) {
     for (const auto& [member, value] : (parsed.is_object() ? parsed : none).items())
         if (std::find(std::begin(MEMBERS), std::end(MEMBERS), member) == std::end(MEMBERS))
             refuse(addition, quote_text(member) + " is nothing that an addition has", "leave it out");
-    Scene larger = scene;
-    larger.additions.push_back(text);
     const std::string what = read_string(require_member(addition, "add"));
+    Scene larger = what == "time" ? pose_scene(scene, addition) : scene;
+    larger.additions.push_back(text);
     if (what == "light")
         add_light(larger, addition);
     else if (what == "floor")
         add_floor(larger, addition);
-    else
+    else if (what != "time")
         refuse(find_member(addition, "add"), quote_text(what) + " cannot be added", "add a light or a floor");
     larger.hash = hash_bytes(scene.hash + larger.additions.back());
     return larger;

@@ -88,15 +88,15 @@ bool is_dispensable_extension(std::string_view name) {
                        [name](std::string_view kind) { return name.find(kind) != name.npos; });
 }
 
-std::vector<std::string> list_ignored_features(const JsonPlace& root) {
+std::vector<std::string> list_ignored_features(const JsonPlace& root, bool is_animated) {
     std::map<std::string, std::size_t> counts;
     count_features(*root.value, counts);
     count_used_extensions(root, counts);
-    if (const std::size_t count = count_elements(find_member(root, "animations"), MAX_ENTRIES))
-        counts["animations"] = count;
     std::vector<std::string> ignored;
     for (const auto& [feature, count] : counts)
         ignored.push_back(feature + (count > 1 ? " (" + std::to_string(count) + ")" : "") + ": not modeled");
+    if (count_elements(find_member(root, "animations"), MAX_ENTRIES) > 0 && !is_animated)
+        ignored.emplace_back("animations: everything is at rest; a time, as --time gives it, poses it");
     return ignored;
 }
 

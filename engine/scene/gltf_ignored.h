@@ -10,7 +10,7 @@
 namespace photonloupe {
 
 // One sentence per feature, by name and with the places or the count.
-std::vector<std::string> list_ignored_features(const JsonPlace& root);
+std::vector<std::string> list_ignored_features(const JsonPlace& root, bool is_animated);
 
 // Extensions that are read.
 bool is_known_extension(std::string_view name);

@@ -15,6 +15,7 @@
 #include "scene/load_textures.h"
 #include "scene/load_triangles.h"
 #include "scene/place_nodes.h"
+#include "scene/pose_nodes.h"
 
 namespace photonloupe {
 namespace {
@@ -33,13 +34,15 @@ tinygltf::Model parse_approved(const ApprovedGltf& approved, const std::string& 
 } // namespace
 
 Scene load_scene_from_memory(std::span<const unsigned char> bytes, const std::filesystem::path& folder,
-                             const std::string& name) {
-    const ApprovedGltf approved = approve_gltf(bytes, folder, name);
+                             const std::string& name, std::optional<double> time) {
+    const ApprovedGltf approved = approve_gltf(bytes, folder, name, time.has_value());
     Scene scene;
     scene.path = name;
     scene.hash = approved.hash;
     scene.report.ignored = approved.ignored;
-    const tinygltf::Model model = parse_approved(approved, name);
+    tinygltf::Model model = parse_approved(approved, name);
+    if (time)
+        pose_nodes(model, approved.animation, *time);
     const std::vector<PlacedNode> nodes = place_nodes(model);
     load_textures(approved.textures, approved.images, scene);
     load_triangles(model, approved.columns, nodes, scene);
@@ -51,11 +54,11 @@ Scene load_scene_from_memory(std::span<const unsigned char> bytes, const std::fi
     return scene;
 }
 
-Scene load_scene(const std::filesystem::path& path) {
+Scene load_scene(const std::filesystem::path& path, std::optional<double> time) {
     const std::string name = path.string();
     const std::vector<unsigned char> bytes = read_file_bytes(path, std::nullopt, MAX_FILE_BYTES, {nullptr, "", &name});
     const std::filesystem::path folder = path.parent_path();
-    return load_scene_from_memory(bytes, folder.empty() ? "." : folder, name);
+    return load_scene_from_memory(bytes, folder.empty() ? "." : folder, name, time);
 }
 
 } // namespace photonloupe

@@ -65,7 +65,7 @@ std::string hash_content(std::string_view json, const BufferBytes& buffers, cons
 } // namespace
 
 ApprovedGltf approve_gltf(std::span<const unsigned char> bytes, const std::filesystem::path& folder,
-                          const std::string& name) {
+                          const std::string& name, bool is_animated) {
     const JsonPlace file{nullptr, "", &name};
     const GltfContainer container = split_container(bytes, file);
     const Json document = parse_json(container.json, file);
@@ -75,7 +75,7 @@ ApprovedGltf approve_gltf(std::span<const unsigned char> bytes, const std::files
 
     ApprovedGltf result;
     Json approved{{"asset", {{"version", "2.0"}}}};
-    result.ignored = list_ignored_features(root);
+    result.ignored = list_ignored_features(root, is_animated);
     result.buffers = read_buffers(root, folder, container.binary_chunk);
     check_materials(root, approved);
     result.textures = check_textures(root, result.ignored);
@@ -90,6 +90,8 @@ ApprovedGltf approve_gltf(std::span<const unsigned char> bytes, const std::files
     const std::vector<std::uint64_t> draw_counts = check_nodes(root, targets, accessors, approved, result.ignored);
     check_skins(root, accessors, approved);
     check_meshes(root, draw_counts, accessors, approved, result.ignored);
+    if (is_animated)
+        result.animation = check_animations(root, accessors, approved, result.ignored);
     result.columns = accessors.take_columns();
     result.json = approved.dump();
     return result;

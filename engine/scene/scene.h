@@ -6,6 +6,7 @@
 #include <bit>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -119,7 +120,8 @@ inline bool has_colored_emission(const Scene& scene) {
 }
 
 // Reads a .gltf or .glb file behind the project's wall. Throws SceneError with what, where and what to do.
-Scene load_scene(const std::filesystem::path& path);
+// `time`, s: where the file's first animation has things then; else they are at rest.
+Scene load_scene(const std::filesystem::path& path, std::optional<double> time = std::nullopt);
 
 // What the scene requires of the kernels, and what they leave out for it.
 struct SceneFeatures {

@@ -74,6 +74,8 @@ std::string write_addition(const std::string& addition) {
     const Text told = Text::parse(addition, nullptr, false);
     const auto find = [&](const char* name) { return told.is_object() && told.contains(name) ? told[name] : Text(); };
     const bool is_light = find("add") == "light";
+    if (!is_light && find("add") != "floor") // the time, which loading has told
+        return "";
     std::string arguments = is_light && find("kind").is_string() ? quote(find("kind").get<std::string>()) : "";
     if (const Text image = find("image"); image.is_string())
         arguments += (arguments.empty() ? "image=" : ", image=") + quote(image.get<std::string>());
@@ -83,10 +85,18 @@ std::string write_addition(const std::string& addition) {
     return (is_light ? "scene.add_light(" : "scene.add_floor(") + arguments + ")\n";
 }
 
+// The first addition may say where an animation has things.
+std::string write_time(const std::vector<std::string>& additions) {
+    const Text told = additions.empty() ? Text() : Text::parse(additions.front(), nullptr, false);
+    const bool is_time =
+        told.is_object() && told.value("add", Text()) == "time" && told.value("time", Text()).is_number();
+    return is_time ? ", time=" + told["time"].dump() : "";
+}
+
 std::string write_trace(const TraceState& trace) {
     std::string text;
     if (!trace.scene.empty()) {
-        text += "scene = pl.load_scene(" + quote(trace.scene) + ")\n";
+        text += "scene = pl.load_scene(" + quote(trace.scene) + write_time(trace.additions) + ")\n";
         for (const std::string& addition : trace.additions)
             text += write_addition(addition);
     }

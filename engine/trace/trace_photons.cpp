@@ -42,8 +42,7 @@ class Tracer {
 public:
     Tracer(gpu::Device& device, const Scene& scene, const SceneBuffers& buffers, const EmitterTable& emitters,
            const TraceSettings& settings)
-        : m_device(device), m_scene(scene), m_buffers(buffers), m_settings(settings),
-          m_table(emitters),
+        : m_device(device), m_scene(scene), m_buffers(buffers), m_settings(settings), m_table(emitters),
           m_emitters(gpu::make_buffer(device, m_table.emitters, "emitters")),
           m_cells(gpu::make_buffer(device, m_table.cells, "projection cells")),
           m_cell_rows(gpu::make_buffer(device, m_table.cell_rows, "projection rows")),

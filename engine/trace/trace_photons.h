@@ -31,7 +31,6 @@ struct TracedPhotons {
 
 // Throws SceneError when nothing can be stored, MemoryError with what would fit, Cancelled on request.
 TracedPhotons trace_photons(gpu::Device& device, const Scene& scene, const SceneBuffers& buffers,
-                            const EmitterTable& emitters, const TraceSettings& settings,
-                            const Progress& progress = {});
+                            const EmitterTable& emitters, const TraceSettings& settings, const Progress& progress = {});
 
 } // namespace photonloupe

@@ -18,6 +18,7 @@ from photonloupe.checks import check_choice, check_number, check_path, check_vec
 from photonloupe.errors import ArgumentError
 
 _LARGEST = 1e30  # of a coordinate or a power
+_LONGEST = 1e9  # s
 
 # What is told of each kind of light that can be added.
 LIGHTS = {
@@ -201,13 +202,15 @@ class Scene:
         )
 
 
-def load_scene(path: str | os.PathLike[str]) -> Scene:
+def load_scene(path: str | os.PathLike[str], *, time: float | None = None) -> Scene:
     """Read a glTF scene (.gltf or .glb).
 
     Parameters
     ----------
     path
         The file; buffers and images are looked for in its folder and below only.
+    time
+        Seconds: things are where the file's first animation has them then; default: at rest.
 
     Returns
     -------
@@ -230,4 +233,7 @@ def load_scene(path: str | os.PathLike[str]) -> Scene:
         name.encode()
     except UnicodeEncodeError:
         raise _engine.SceneError(f"{name!r}: its name is no UTF-8, which files of scenes need; rename it") from None
-    return Scene(_engine.load_scene(name))
+    scene = Scene(_engine.load_scene(name))
+    if time is not None:
+        scene.restore([{"add": "time", "time": check_number("time", time, -_LONGEST, _LONGEST)}])
+    return scene

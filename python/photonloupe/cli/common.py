@@ -83,12 +83,15 @@ def add_scene_options(parser: argparse.ArgumentParser) -> None:
         metavar="DEGREES",
         help="turn the image about y, counter-clockwise seen from above; default 0",
     )
+    parser.add_argument(
+        "--time", type=float, metavar="SECONDS", help="pose things as the file's animation has them then"
+    )
     parser.add_argument("--floor", action="store_true", help="add a diffuse floor below the scene")
 
 
 def open_scene(arguments: argparse.Namespace, path: str) -> Scene:
     """Load a scene and add what was asked for."""
-    scene = load_scene(path)
+    scene = load_scene(path, time=arguments.time)
     for text in arguments.light:
         add_light(scene, text)
     _add_environment(scene, arguments)
