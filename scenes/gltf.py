@@ -136,6 +136,12 @@ def make_glass(name: str, ior: float, thickness: float, roughness: float = 0.0) 
     }
 
 
+def add_dispersion(material: dict[str, Any], abbe: float) -> dict[str, Any]:
+    """`material`, glass with a volume, of the Abbe number `abbe`."""
+    dispersion = {"dispersion": 20.0 / abbe}
+    return {**material, "extensions": {**material.get("extensions", {}), "KHR_materials_dispersion": dispersion}}
+
+
 def add_coat(material: dict[str, Any], factor: float, roughness: float = 0.0) -> dict[str, Any]:
     """`material` under a clear coat of index 1.5 that covers `factor` of it."""
     coat = {"clearcoatFactor": factor, "clearcoatRoughnessFactor": roughness}
