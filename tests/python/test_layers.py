@@ -204,6 +204,18 @@ def test_a_light_shines_back_off_a_rough_layer(tmp_path: Path, kind: str, roughn
     np.testing.assert_allclose(seen, truth, rtol=4e-3)
 
 
+@pytest.mark.parametrize("coat_roughness", [0.0, 0.4])
+def test_a_light_shines_back_off_rough_metal_through_its_coat(tmp_path: Path, coat_roughness: float) -> None:
+    """What the metal shows is dimmed by the coat's reflectance towards the eye; a rough coat adds its own."""
+    light, eye = 3.0 * find_arriving(40.0), 2.0 * normalize(np.array([-0.9, 0.3, -0.6]))
+    seen = look_at_plate(tmp_path, add_coat(make_mirror("metal", WHITE, 0.5), 1.0, coat_roughness), light, eye)
+    to_light, to_eye = normalize(light), normalize(eye)
+    truth = (1.0 - reflect_schlick(COAT_F0, to_eye[1])) * float(reflect_rough(to_eye, to_light, 0.5))
+    if coat_roughness > 0.0:
+        truth += float(reflect_layer(to_eye, to_light, coat_roughness))
+    np.testing.assert_allclose(seen, truth / 9.0, rtol=4e-3)
+
+
 def test_layers_nothing_has_cost_nothing(tmp_path: Path) -> None:
     def write(name: str, material: dict[str, Any]) -> pl.Scene:
         def change(writer: GltfWriter) -> None:
