@@ -136,6 +136,26 @@ def make_glass(name: str, ior: float, thickness: float, roughness: float = 0.0) 
     }
 
 
+def add_dispersion(material: dict[str, Any], abbe: float) -> dict[str, Any]:
+    """`material`, glass with a volume, of the Abbe number `abbe`."""
+    dispersion = {"dispersion": 20.0 / abbe}
+    return {**material, "extensions": {**material.get("extensions", {}), "KHR_materials_dispersion": dispersion}}
+
+
+def add_coat(material: dict[str, Any], factor: float, roughness: float = 0.0) -> dict[str, Any]:
+    """`material` under a clear coat of index 1.5 that covers `factor` of it."""
+    coat = {"clearcoatFactor": factor, "clearcoatRoughnessFactor": roughness}
+    return {**material, "extensions": {**material.get("extensions", {}), "KHR_materials_clearcoat": coat}}
+
+
+def make_translucent(name: str, color: Vector, factor: float, passing: Vector) -> dict[str, Any]:
+    """Thin surface that lets `factor` of the light through, by `passing`, and throws the rest back, by `color`."""
+    transmission = {"diffuseTransmissionFactor": factor, "diffuseTransmissionColorFactor": list(passing)}
+    material = make_diffuse(name, 1.0)
+    material["pbrMetallicRoughness"]["baseColorFactor"] = [*color, 1.0]
+    return {**material, "extensions": {"KHR_materials_diffuse_transmission": transmission}}
+
+
 def _aim(eye: Vector, target: Vector) -> list[float]:
     """Rotation that turns -z from `eye` to `target`."""
     steep = abs(target[1] - eye[1]) > 0.9 * math.dist(eye, target)
