@@ -244,6 +244,7 @@ Image Workbench::render(const Scene& scene, Photons* photons, const CameraChoice
 }
 
 void Workbench::forget() {
+    m_emitters.forget();
     m_traced.forget();
     m_scripted.forget();
     m_relaxed.forget();

@@ -18,7 +18,7 @@ SurfaceView see_surfaces(gpu::Device& device, const Scene& scene, const SceneBuf
     view.points = gpu::Buffer(device, view.pixel_count() * sizeof(glm::vec4), "surfaces seen");
     view.normals = gpu::Buffer(device, view.pixel_count() * sizeof(glm::vec4), "surfaces seen");
     shared::SurfaceSettings push{camera, 0, 0, settings.width, settings.height, settings.sees_through ? 1u : 0u};
-    gpu::dispatch_in_chunks(device, "see surfaces", {"inspect/see_surfaces.comp", 64, list_passing_defines(scene), {}},
+    gpu::dispatch_in_chunks(device, "see surfaces", {"inspect/see_surfaces.comp", 64, list_scene_defines(scene), {}},
                             buffers.bind({{"surface_points", view.points}, {"surface_normals", view.normals}}), push,
                             view.pixel_count(), 4096, progress);
     return view;

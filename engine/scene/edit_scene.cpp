@@ -255,7 +255,7 @@ Scene add_to_scene(const Scene& scene, const std::string& text) {
         add_floor(larger, addition);
     else if (what != "time")
         refuse(find_member(addition, "add"), quote_text(what) + " cannot be added", "add a light or a floor");
-    larger.hash = hash_bytes(scene.hash + larger.additions.back());
+    larger.hash = hash_bytes(larger.hash + larger.additions.back());
     return larger;
 }
 

@@ -36,6 +36,8 @@ std::optional<AnimatedPart> find_part(const std::string& path) {
 }
 
 std::vector<double> read_numbers(const AccessorColumn& column, const JsonPlace& place) {
+    if (column.count > MAX_ANIMATION_NUMBERS / column.width)
+        refuse(place, "it has more than " + std::to_string(MAX_ANIMATION_NUMBERS) + " numbers", "thin out its keys");
     std::vector<double> numbers;
     numbers.reserve(column.count * column.width);
     for (std::uint64_t element = 0; element < column.count; ++element)

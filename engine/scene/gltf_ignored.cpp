@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds textures, skins, animations, unknown extensions and the rest of glTF that is left out.
+// Finds unknown extensions and what else of glTF is left out.
 #include "scene/gltf_ignored.h"
 
 #include <algorithm>

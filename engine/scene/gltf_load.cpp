@@ -44,9 +44,9 @@ Scene load_scene_from_memory(std::span<const unsigned char> bytes, const std::fi
     if (time)
         pose_nodes(model, approved.animation, *time);
     const std::vector<PlacedNode> nodes = place_nodes(model);
-    load_textures(approved.textures, approved.images, scene);
+    const TextureRanges ranges = load_textures(approved.textures, approved.images, scene);
     load_triangles(model, approved.columns, nodes, scene);
-    load_materials(model, scene);
+    load_materials(model, ranges, scene);
     load_lights(model, nodes, scene);
     load_cameras(model, nodes, scene);
     build_bvh(scene);

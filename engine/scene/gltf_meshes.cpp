@@ -147,7 +147,7 @@ std::uint64_t check_triangles(const JsonPlace& place, std::uint64_t mode, std::s
     check_attributes(attributes, OPTIONAL_ATTRIBUTES, vertex_count, accessors.get_count(), checks,
                      approved["attributes"]);
     const JsonPlace targets = find_member(place, "targets");
-    for (std::size_t i = 0; i < count_elements(targets, MAX_ENTRIES); ++i) {
+    for (std::size_t i = 0; i < count_elements(targets, MAX_MORPH_TARGETS); ++i) {
         Json target = Json::object();
         check_attributes(get_element(targets, i), MORPHED_ATTRIBUTES, vertex_count, accessors.get_count(), checks,
                          target);
@@ -189,7 +189,7 @@ void check_meshes(const JsonPlace& root, const std::vector<std::uint64_t>& draw_
     AccessorChecks checks(accessors, ignored);
     const std::size_t material_count = count_elements(find_member(root, "materials"), MAX_ENTRIES);
     const JsonPlace meshes = find_member(root, "meshes");
-    std::uint64_t total = 0, object_count = 0;
+    std::uint64_t total = 0, object_count = 0, draw_count = 0;
     for (std::size_t mesh = 0; mesh < draw_counts.size(); ++mesh) {
         const JsonPlace place = get_element(meshes, mesh);
         const JsonPlace primitives = require_member(place, "primitives");
@@ -201,8 +201,10 @@ void check_meshes(const JsonPlace& root, const std::vector<std::uint64_t>& draw_
                 refuse(meshes, "the scene draws more than " + std::to_string(MAX_TRIANGLES) + " triangles",
                        "simplify the meshes or draw fewer instances");
             total += count * draw_counts[mesh];
-            object_count += entry["primitives"].size() * draw_counts[mesh]; // no more than triangles
-            if (object_count > MAX_OBJECTS || draw_counts[mesh] > MAX_OBJECTS)
+            const std::uint64_t primitive_count = entry["primitives"].size();
+            draw_count += std::min<std::uint64_t>(draw_counts[mesh], MAX_OBJECTS + 1); // of what draws nothing too
+            object_count += primitive_count * std::min<std::uint64_t>(draw_counts[mesh], MAX_OBJECTS + 1);
+            if (object_count > MAX_OBJECTS || draw_count > MAX_OBJECTS)
                 refuse(meshes, "the scene draws more than " + std::to_string(MAX_OBJECTS) + " objects",
                        "join meshes or draw fewer instances");
             if (const JsonPlace weights = find_member(place, "weights"); weights.value)

@@ -183,6 +183,8 @@ std::vector<ImageFile> read_images(const JsonPlace& root, const std::filesystem:
         } catch (const SceneError& error) {
             files[i].problem = error.what();
         }
+        if (files[i].bytes.empty() && files[i].problem.empty())
+            files[i].problem = "it is empty";
         total += files[i].bytes.size();
         if (total > MAX_BUFFER_BYTES)
             refuse(places, "the images together exceed " + std::to_string(MAX_BUFFER_BYTES) + " bytes",

@@ -49,8 +49,11 @@ std::string hash_content(std::string_view json, const BufferBytes& buffers, cons
     XXH3_128bits_update(state.get(), json.data(), json.size());
     for (const auto& buffer : buffers)
         XXH3_128bits_update(state.get(), buffer.data(), buffer.size());
-    for (const ImageFile& image : images)
+    for (const ImageFile& image : images) {
+        const std::uint64_t size = image.bytes.size(); // the same bytes of another image are another scene
+        XXH3_128bits_update(state.get(), &size, sizeof size);
         XXH3_128bits_update(state.get(), image.bytes.data(), image.bytes.size());
+    }
     XXH128_canonical_t canonical;
     XXH128_canonicalFromHash(&canonical, XXH3_128bits_digest(state.get()));
     constexpr std::string_view DIGITS = "0123456789abcdef";

@@ -23,6 +23,12 @@ constexpr std::size_t MAX_ENTRIES = 1u << 18;
 constexpr std::size_t MAX_IMAGES = 4096;
 // Of one image's file, as it is stored.
 constexpr std::uint64_t MAX_IMAGE_BYTES = 256ull << 20;
+// Keys of one animated part are copied: 2^22 numbers are 32 MiB.
+constexpr std::uint64_t MAX_ANIMATION_NUMBERS = 1u << 22;
+// Of one primitive: each target is looked at for each vertex.
+constexpr std::size_t MAX_MORPH_TARGETS = 1024;
+// Beyond, a float tells no texels apart; times the largest factor of a transform, 10^6, it stays a number.
+constexpr double MAX_TEXTURE_COORDINATE = 1e6;
 // Of all textures together, decoded, 4 bytes each: larger ones are halved until they fit.
 constexpr std::uint64_t MAX_TEXELS = 1ull << 27;
 // Of all images together as they are decoded: small files can hold large ones.

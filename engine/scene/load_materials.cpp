@@ -108,24 +108,25 @@ shared::Material make_default_material() {
 }
 
 // Clears factors of which textures leave nothing anywhere, and returns what they leave at least of the others.
-shared::Material fold_textures(Scene& scene, std::size_t index) {
+shared::Material fold_textures(Scene& scene, const TextureRanges& ranges, std::size_t index) {
     shared::Material& material = scene.materials[index];
     if (scene.paints.empty())
         return material;
     const shared::MaterialPaint& paint = scene.paints[index];
-    const TextureRange color = find_texture_range(scene, paint.colors.x);
-    const TextureRange shine = find_texture_range(scene, paint.colors.y);
-    const TextureRange emission = find_texture_range(scene, paint.colors.w);
-    const TextureRange transmission = find_texture_range(scene, paint.others.x);
+    const auto find_range = [&](float number) { return ranges[static_cast<std::size_t>(number)]; };
+    const TextureRange color = find_range(paint.colors.x);
+    const TextureRange shine = find_range(paint.colors.y);
+    const TextureRange emission = find_range(paint.colors.w);
+    const TextureRange transmission = find_range(paint.others.x);
     const auto clear = [](float& factor, float most) { factor = most > 0 ? factor : 0.0f; };
     clear(material.base_color_metallic.w, shine.most[2]);
     clear(material.roughness_thin.x, shine.most[1]);
     clear(material.emission_transmission.w, transmission.most[0]);
     for (int channel = 0; channel < 3; ++channel)
         clear(material.emission_transmission[channel], emission.most[std::size_t(channel)]);
-    clear(material.translucency.w, find_texture_range(scene, paint.others.z).most[3]);
-    clear(material.coat.x, find_texture_range(scene, paint.layers.z).most[0]);
-    if (find_texture_range(scene, paint.layers.x).most[3] == 0)
+    clear(material.translucency.w, find_range(paint.others.z).most[3]);
+    clear(material.coat.x, find_range(paint.layers.z).most[0]);
+    if (find_range(paint.layers.x).most[3] == 0)
         material.gloss = glm::vec4(0.0f);
     shared::Material least = material;
     least.base_color_metallic.w *= shine.least[2];
@@ -192,7 +193,7 @@ void report_material(const shared::Material& material, const shared::Material& l
         report.ignored.push_back(label + ": the specular lobe of its opaque, non-metal part is not modeled (Lambert)");
 }
 
-void load_materials(const tinygltf::Model& model, Scene& scene) {
+void load_materials(const tinygltf::Model& model, const TextureRanges& ranges, Scene& scene) {
     const std::string scene_name = scene.path.string();
     for (std::size_t i = 0; i < model.materials.size(); ++i) {
         const tinygltf::Material& material = model.materials[i];
@@ -212,7 +213,12 @@ void load_materials(const tinygltf::Model& model, Scene& scene) {
     const float vertex_alpha = find_vertex_alpha(scene);
     for (std::size_t i = 0; i < used.size(); ++i)
         if (used[i]) {
-            const shared::Material least = fold_textures(scene, i);
+            const shared::Material least = fold_textures(scene, ranges, i);
+            const std::string label = "material " + quote_text(scene.material_names[i]);
+            if (scene.materials[i].alpha.y != shared::ALPHA_OPAQUE && scene.materials[i].emission_transmission.w > 0) {
+                scene.materials[i].alpha.y = shared::ALPHA_OPAQUE;
+                scene.report.ignored.push_back(label + ": alpha of what transmits is not modeled");
+            }
             simplify_alpha(scene.materials[i], least.alpha.x * vertex_alpha);
             report_material(scene.materials[i], least, "material " + quote_text(scene.material_names[i]), scene.report);
         }

@@ -163,16 +163,44 @@ glm::dvec4 load_texel(const Scene& scene, const shared::Texture& texture, double
     return value;
 }
 
+// Least and most codes of an image.
+struct CodeRange {
+    std::array<std::uint32_t, 4> least{255, 255, 255, 255}, most{};
+};
+
+CodeRange find_codes(const RgbaImage& image) {
+    CodeRange range;
+    for (const std::uint32_t texel : image.texels)
+        for (int channel = 0; channel < 4; ++channel) {
+            const std::uint32_t code = get_code(texel, channel);
+            range.least[std::size_t(channel)] = std::min(range.least[std::size_t(channel)], code);
+            range.most[std::size_t(channel)] = std::max(range.most[std::size_t(channel)], code);
+        }
+    return range;
+}
+
+TextureRange decode_range(const Scene& scene, const shared::Texture& texture, const CodeRange& codes) {
+    TextureRange range;
+    for (int channel = 0; channel < 4; ++channel) {
+        range.least[std::size_t(channel)] = decode(scene, texture, codes.least[std::size_t(channel)], channel);
+        range.most[std::size_t(channel)] = decode(scene, texture, codes.most[std::size_t(channel)], channel);
+    }
+    return range;
+}
+
 } // namespace
 
-void load_textures(const std::vector<MaterialTextures>& materials, const std::vector<ImageFile>& files, Scene& scene) {
+TextureRanges load_textures(const std::vector<MaterialTextures>& materials, const std::vector<ImageFile>& files, Scene& scene) {
     const std::vector<RgbaImage> images = decode_images(files, scene);
+    TextureRanges ranges(1);
     if (count_texels(images) == 0)
-        return;
+        return ranges;
     scene.atlas = make_srgb_table();
     std::vector<std::size_t> first(images.size());
+    std::vector<CodeRange> codes(images.size());
     for (std::size_t i = 0; i < images.size(); ++i) {
         first[i] = scene.atlas.size();
+        codes[i] = find_codes(images[i]);
         scene.atlas.insert(scene.atlas.end(), images[i].texels.begin(), images[i].texels.end());
     }
     for (const MaterialTextures& slots : materials) {
@@ -184,12 +212,14 @@ void load_textures(const std::vector<MaterialTextures>& materials, const std::ve
             const auto slot = static_cast<TextureSlot>(i);
             const TextureUse& use = *slots[i];
             scene.textures.push_back(make_texture(use, slot, images[use.image], first[use.image]));
+            ranges.push_back(decode_range(scene, scene.textures.back(), codes[use.image]));
             get_number(paint, slot) = static_cast<float>(scene.textures.size());
             if (slot == TextureSlot::normal)
                 paint.others.y = static_cast<float>(use.scale);
         }
         scene.paints.push_back(paint);
     }
+    return ranges;
 }
 
 glm::dvec4 sample_texture(const Scene& scene, float number, std::uint32_t triangle, const glm::dvec3& weights) {
@@ -209,26 +239,6 @@ glm::dvec4 sample_texture(const Scene& scene, float number, std::uint32_t triang
         return glm::mix(load_texel(scene, texture, column, at), load_texel(scene, texture, column + 1, at), right);
     };
     return glm::mix(blend(row), blend(row + 1), down);
-}
-
-TextureRange find_texture_range(const Scene& scene, float number) {
-    TextureRange range;
-    if (number == 0)
-        return range;
-    const shared::Texture& texture = scene.textures[static_cast<std::size_t>(number) - 1];
-    std::array<std::uint32_t, 4> least{255, 255, 255, 255}, most{};
-    const std::size_t count = std::size_t{texture.place.y} * texture.place.z;
-    for (std::size_t i = 0; i < count; ++i)
-        for (int channel = 0; channel < 4; ++channel) {
-            const std::uint32_t code = get_code(scene.atlas[texture.place.x + i], channel);
-            least[std::size_t(channel)] = std::min(least[std::size_t(channel)], code);
-            most[std::size_t(channel)] = std::max(most[std::size_t(channel)], code);
-        }
-    for (int channel = 0; channel < 4; ++channel) {
-        range.least[std::size_t(channel)] = decode(scene, texture, least[std::size_t(channel)], channel);
-        range.most[std::size_t(channel)] = decode(scene, texture, most[std::size_t(channel)], channel);
-    }
-    return range;
 }
 
 } // namespace photonloupe

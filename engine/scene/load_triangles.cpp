@@ -36,6 +36,7 @@ struct Counts {
     std::size_t replaced_normals = 0;
     std::size_t turned_normals = 0;
     std::size_t without_material = 0;
+    std::size_t far_coordinates = 0;
 };
 
 glm::dvec3 transform_point(const glm::dmat4& world, const glm::dvec3& point) {
@@ -209,8 +210,11 @@ private:
             for (std::size_t set = 0; set < 2; ++set)
                 if (reader.has_texcoords(set)) {
                     const glm::dvec2 uv = reader.read_texcoord(set, corners[i]);
-                    coordinates[i][2 * set] = float(uv.x);
-                    coordinates[i][2 * set + 1] = float(uv.y);
+                    for (int axis = 0; axis < 2; ++axis) {
+                        const bool is_far = !(std::abs(uv[axis]) <= MAX_TEXTURE_COORDINATE);
+                        m_counts.far_coordinates += is_far;
+                        coordinates[i][int(2 * set) + axis] = is_far ? 0.0f : float(uv[axis]);
+                    }
                 }
         m_scene.corner_coordinates.push_back({coordinates[0], coordinates[1], coordinates[2]});
     }
@@ -256,6 +260,8 @@ void note_counts(const Counts& counts, std::vector<std::string>& notes) {
          "shading normals of zero length or not finite were replaced by the geometric normal");
     note(notes, counts.turned_normals, "triangle has a shading normal on its back side, which was kept",
          "triangles have a shading normal on their back side, which was kept");
+    note(notes, counts.far_coordinates, "texture coordinate is beyond 10^6 and reads as 0",
+         "texture coordinates are beyond 10^6 and read as 0");
     note(notes, counts.without_material,
          "primitive has no material; glTF's default, white metal, makes it rough and reflecting",
          "primitives have no material; glTF's default, white metal, makes them rough and reflecting");

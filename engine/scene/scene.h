@@ -59,7 +59,7 @@ struct SceneReport {
 
 struct Scene {
     std::filesystem::path path;
-    std::string hash;                        // of the file, every buffer it uses and the additions, hex
+    std::string hash;                        // of the file, every buffer and image it uses and the additions, hex
     std::vector<std::string> additions;      // what was added to the file's (scene/edit_scene.h), JSON each
     std::array<double, 3> origin{};          // world position of the kernels' (0, 0, 0)
     Bounds bounds;                           // world

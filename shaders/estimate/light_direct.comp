@@ -105,7 +105,9 @@ void main() {
     if (slot >= settings.sample_count * settings.slot_count) return;
     vec4 point = hit_point_at(slot);
     vec3 sum = vec3(0.0);
+    vec4 normal = hit_normal_at(slot);
+    if (normal.w != 0.0) normal.xyz = unpack_normal(floatBitsToUint(normal.w)); // as a texture turns it
     if (point.w > 0.0)
-        for (uint i = 0u; i < settings.light_count; ++i) sum += light_hit(i, point.xyz, hit_normal_at(slot).xyz, slot);
+        for (uint i = 0u; i < settings.light_count; ++i) sum += light_hit(i, point.xyz, normal.xyz, slot);
     direct_irradiance[slot] = vec4(sum, 0.0);
 }

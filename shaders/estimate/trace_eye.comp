@@ -3,7 +3,7 @@
 // Inputs: scene, environment_map. Outputs: per slot hit_point (xyz, w 1: used), hit_normal, hit_weight (rgb: radiance per irradiance);
 // per sample eye_emission (rgb: emitted radiance seen).
 // Dielectrics split into both directions while slots last, then one is chosen at random.
-// Rough surfaces send each path on one way, and show point, spot and directional lights themselves (lights).
+// Rough surfaces show point, spot and directional lights themselves (lights).
 // Defines: HAS_DIELECTRIC, HAS_MIRROR, HAS_ROUGH (then also those of lights), HAS_ABSORPTION, HAS_TEXTURES,
 // HAS_VERTEX_COLORS, HAS_ALPHA, HAS_ENVIRONMENT_MAP, HAS_TRANSLUCENCY, HAS_LAYERS, HAS_DISPERSION.
 #include "shared/prelude.glsl"
@@ -77,24 +77,38 @@ Branch start_branch() {
 
 uint locate_slot(uint slot) { return slot * settings.sample_count + sample_index - settings.first_sample; }
 
-// `weight`: radiance for each exitance.
-void record_hit(Surface surface, vec3 normal, vec3 weight) {
+// `side`: 1 on the side that is seen, -1 beyond; `weight`: radiance for each exitance.
+void record_hit(Surface surface, vec3 direction, float side, vec3 weight) {
     if (used_slots >= settings.slot_count) return;
     uint at = locate_slot(used_slots);
+    vec3 normal = side * face_smoothly(surface, direction);
+    vec3 bent = side * face_arrival(surface, direction);
     hit_point[at] = vec4(leave_surface(surface, normal).origin, 1.0);
-    hit_normal[at] = vec4(normal, 0.0);
+    hit_normal[at] = vec4(normal, bent == normal ? 0.0 : uintBitsToFloat(pack_normal(bent)));
     hit_weight[at] = vec4(weight / PI, 1.0);
     ++used_slots;
 }
 
-void record_diffuse(Surface surface, vec3 normal, vec3 weight) {
+// Whether so many hits leave one for each branch that waits.
+bool has_room(uint hits) { return used_slots + waiting_count + hits <= settings.slot_count; }
+
+float draw_layer(uint bounce, uint dimension) {
+    return to_unit_float(random_bits(settings.seed, sample_index, bounce, 56u + 8u * dimension + used_slots));
+}
+
+// `kept`: hits that must be left besides.
+void record_diffuse(Branch branch, Surface surface, vec3 weight, uint kept) {
+    vec3 direction = branch.ray.direction;
 #ifdef HAS_TRANSLUCENCY
+    // Both sides, or one by its probability.
     float passing = surface.material.translucency.w;
-    if (passing > 0.0) record_hit(surface, -normal, weight * passing * surface.material.translucency.rgb);
-    weight *= 1.0 - passing;
-    if (passing >= 1.0) return;
+    bool takes_both = has_room(2u + kept);
+    bool takes_beyond = takes_both ? passing > 0.0 : draw_layer(branch.bounce, 0u) < passing;
+    if (takes_beyond) record_hit(surface, direction, -1.0, weight * (takes_both ? passing : 1.0) * surface.material.translucency.rgb);
+    if (takes_both ? passing >= 1.0 : takes_beyond) return;
+    weight *= takes_both ? 1.0 - passing : 1.0;
 #endif
-    record_hit(surface, normal, weight * surface.material.base_color_metallic.rgb);
+    record_hit(surface, direction, 1.0, weight * surface.material.base_color_metallic.rgb);
 }
 
 #ifdef HAS_DISPERSION
@@ -151,8 +165,11 @@ void split_dielectric(inout Branch branch, Surface surface) {
 
 #ifdef HAS_ROUGH
 // Radiance that lights without extent send off a rough surface to the eye; its others the path itself meets.
-vec3 shine_back(Surface surface, vec3 direction) {
+vec3 shine_back(Surface surface, vec3 direction, float band) {
     vec3 sum = vec3(0.0);
+#ifdef HAS_DISPERSION
+    if (band >= 0.0) surface.material.absorption_ior.w = find_index(surface.material, band);
+#endif
     for (uint i = 0u; i < floatBitsToUint(settings.environment.w); ++i) {
         Beam beam;
         if (!find_beam(lights[i], surface.position, beam)) continue;
@@ -190,17 +207,24 @@ void follow_specular(inout Branch branch, Surface surface, LobeShares shares, fl
 
 // One surface of a branch; false when the branch ends here.
 bool follow_surface(inout Branch branch, Surface surface, float distance) {
-    vec3 normal = face_arrival(surface, branch.ray.direction);
 #ifdef HAS_ABSORPTION
     branch.weight *= transmit_interior(surface, branch.ray.direction, distance);
 #endif
     if (surface.material.roughness_thin.z > 0.0 || dot(branch.ray.direction, surface.geometric_normal) < 0.0)
         seen_emission += branch.weight * surface.material.emission_transmission.rgb;
     LobeShares shares = share_lobes(surface, branch.ray.direction);
-    if (shares.diffuse > 0.0) record_diffuse(surface, normal, branch.weight * shares.diffuse);
-    if (shares.diffuse >= 1.0 || branch.bounce >= settings.max_bounces) return false;
+    // What is diffuse in part is seen and seen through, or either by its probability where hits run short.
+    bool goes_on = shares.diffuse < 1.0 && branch.bounce < settings.max_bounces;
+    bool splits = shares.diffuse > 0.0 && goes_on;
+    bool takes_both = splits && has_room(2u);
+    if (splits && !takes_both) {
+        goes_on = draw_layer(branch.bounce, 1u) >= shares.diffuse;
+        branch.weight /= goes_on ? 1.0 - shares.diffuse : shares.diffuse;
+    }
+    if (shares.diffuse > 0.0 && (takes_both || !goes_on)) record_diffuse(branch, surface, branch.weight * shares.diffuse, goes_on ? 1u : 0u);
+    if (!goes_on) return false;
 #ifdef HAS_ROUGH
-    if (has_rough_lobe(surface.material)) seen_emission += branch.weight * shine_back(surface, branch.ray.direction);
+    if (has_rough_lobe(surface.material)) seen_emission += branch.weight * shine_back(surface, branch.ray.direction, branch.band);
 #endif
     branch.weight *= 1.0 - shares.diffuse;
     follow_specular(branch, surface, shares, draw(branch.bounce, 1u) * (1.0 - shares.diffuse));

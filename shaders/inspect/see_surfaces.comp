@@ -40,5 +40,5 @@ void main() {
     if (!(hit.t < INFINITY)) return;
     Surface surface = load_surface(hit);
     surface_points[pixel] = vec4(surface.position, dot(surface.position - ray.origin, forward));
-    surface_normals[pixel] = vec4(face_arrival(surface, direction), uintBitsToFloat(surface.object));
+    surface_normals[pixel] = vec4(face_smoothly(surface, direction), uintBitsToFloat(surface.object));
 }

@@ -15,6 +15,24 @@ float find_coverage(Material material) {
 }
 #endif
 
+// Distance to the nearest surface that lets nothing pass, INFINITY without one.
+float find_blocker(Ray ray) {
+#ifndef HAS_ALPHA
+    return intersect_scene(ray, INFINITY, false).t;
+#else
+    float passed = 0.0;
+    Hit hit = intersect_scene(ray, INFINITY, false);
+    for (uint i = 0u; i < LARGEST_PASSED_ALPHA && hit.t < INFINITY; ++i) {
+        Surface surface = load_surface(hit);
+        if (find_coverage(surface.material) >= 1.0) break;
+        passed += hit.t;
+        ray = leave_surface(surface, ray.direction);
+        hit = intersect_scene(ray, INFINITY, false);
+    }
+    return hit.t + passed;
+#endif
+}
+
 // The nearest surface that is there; `random` decides for those of a coverage between 0 and 1.
 Hit meet_scene(Ray ray, uint random) {
 #ifndef HAS_ALPHA

@@ -13,7 +13,7 @@ struct EmittingPoint {
 EmittingPoint sample_emitting(uint first, uint count, float choice, vec2 u) {
     uint low = 0u;
     uint high = count - 1u;
-    while (low < high) { // the first whose cumulative share is above u.x
+    while (low < high) { // the first whose cumulative share is above `choice`
         uint middle = (low + high) / 2u;
         if (choice < emitting_at(EMITTING_TEXELS * (first + middle)).w) high = middle;
         else low = middle + 1u;

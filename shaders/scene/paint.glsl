@@ -22,7 +22,7 @@ uint wrap_texel(int at, int size, bool clamps, bool mirrors) {
     if (clamps) return uint(clamp(at, 0, size - 1));
     int period = mirrors ? 2 * size : size;
     int wrapped = at - (at >= 0 ? at / period : -((period - 1 - at) / period)) * period;
-    return uint(wrapped < size ? wrapped : period - 1 - wrapped);
+    return uint(clamp(wrapped < size ? wrapped : period - 1 - wrapped, 0, size - 1));
 }
 
 vec4 load_texel(uvec4 place, ivec2 at) {

@@ -13,11 +13,25 @@ float weigh_mirror(Material m) { return m.base_color_metallic.w; }
 float weigh_dielectric(Material m) { return (1.0 - m.base_color_metallic.w) * m.emission_transmission.w; }
 bool is_thin(Material m) { return m.roughness_thin.y > 0.0; }
 
-// The normal for directions: the shading normal on the arriving side, or the geometric one where it would face away.
-vec3 face_arrival(Surface surface, vec3 direction) {
+// A normal of the surface on the arriving side, or the geometric one where it would face away.
+vec3 face_normal(Surface surface, vec3 normal, vec3 direction) {
     vec3 g = dot(direction, surface.geometric_normal) > 0.0 ? -surface.geometric_normal : surface.geometric_normal;
-    vec3 s = dot(surface.shading_normal, g) < 0.0 ? -surface.shading_normal : surface.shading_normal;
+    vec3 s = dot(normal, g) < 0.0 ? -normal : normal;
     return dot(direction, s) < 0.0 ? s : g;
+}
+
+// For directions.
+vec3 face_arrival(Surface surface, vec3 direction) { return face_normal(surface, surface.shading_normal, direction); }
+
+// For what is stored and looked for: as the surface is modelled.
+vec3 face_smoothly(Surface surface, vec3 direction) { return face_normal(surface, surface.smooth_normal, direction); }
+
+// Cosine-weighted about a normal; what a bent one would send through the surface is mirrored at it.
+vec3 leave_diffusely(Surface surface, vec3 normal, float u1, float u2) {
+    vec3 direction = sample_cosine(normal, u1, u2);
+    float across = dot(direction, surface.geometric_normal);
+    bool crosses = across * dot(normal, surface.geometric_normal) < 0.0;
+    return crosses ? direction - 2.0 * across * surface.geometric_normal : direction;
 }
 
 vec3 reflect_direction(Surface surface, vec3 direction) {

@@ -12,7 +12,8 @@ struct Surface {
     vec3 position;
     float error;            // metres: rays start this far off the surface
     vec3 geometric_normal;  // unit, on the side counter-clockwise triangles show
-    vec3 shading_normal;    // unit, as modelled
+    vec3 smooth_normal;     // unit, as modelled: where photons are stored and looked for
+    vec3 shading_normal;    // unit, the same or as a texture turns it: where light goes
     uint object;
     Material material;
 };
@@ -52,8 +53,9 @@ Surface load_surface(Hit hit) {
     vec3 n = weights.x * shading_normals_at(3u * hit.triangle).xyz +
              weights.y * shading_normals_at(3u * hit.triangle + 1u).xyz +
              weights.z * shading_normals_at(3u * hit.triangle + 2u).xyz;
-    surface.shading_normal = normalize_safely(n);
-    if (surface.shading_normal == vec3(0.0)) surface.shading_normal = surface.geometric_normal;
+    surface.smooth_normal = normalize_safely(n);
+    if (surface.smooth_normal == vec3(0.0)) surface.smooth_normal = surface.geometric_normal;
+    surface.shading_normal = surface.smooth_normal;
     surface.object = floatBitsToUint(v0.w);
     uint material = floatBitsToUint(v1.w);
     surface.material = load_material(material);
@@ -68,7 +70,7 @@ Surface load_surface(Hit hit) {
     paint_material(surface.material, paint, hit.triangle, weights);
     if (paint.colors.z > 0.0)
         surface.shading_normal =
-            bend_normal(surface.shading_normal, paint.colors.z, paint.others.y, hit.triangle, weights, e1 / s1, e2 / s2);
+            bend_normal(surface.smooth_normal, paint.colors.z, paint.others.y, hit.triangle, weights, e1 / max(s1, s2), e2 / max(s1, s2));
 #endif
     return surface;
 }

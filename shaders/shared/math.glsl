@@ -78,6 +78,21 @@ vec3 normalize_safely(vec3 v) {
     return w / sqrt(dot(w, w));
 }
 
+// A unit vector in 30 bits (octahedral, 15 bits an axis); never 0, and never the bits of a NaN.
+uint pack_normal(vec3 n) {
+    vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
+    vec2 folded = (1.0 - abs(p.yx)) * mix(vec2(-1.0), vec2(1.0), greaterThanEqual(p, vec2(0.0)));
+    uvec2 code = uvec2(clamp((n.z < 0.0 ? folded : p) * 0.5 + 0.5, 0.0, 1.0) * 32766.0 + 1.5);
+    return code.x << 15u | code.y;
+}
+
+vec3 unpack_normal(uint bits) {
+    vec2 p = (vec2(bits >> 15u, bits & 0x7fffu) - 1.0) / 32766.0 * 2.0 - 1.0;
+    vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+    vec2 folded = (1.0 - abs(n.yx)) * mix(vec2(-1.0), vec2(1.0), greaterThanEqual(n.xy, vec2(0.0)));
+    return normalize_safely(n.z < 0.0 ? vec3(folded, n.z) : n);
+}
+
 float square(float x) { return x * x; }
 
 // Orthonormal basis around a unit vector (Duff et al. 2017).

@@ -128,7 +128,7 @@ void start_around(inout Emission emission, LightEmission light, uint index) {
     float distance = light.cone.y;
     if (distance > FAR_START * light.cone.x) {
         vec3 near = emission.origin - light.cone.x * emission.direction;
-        float blocked = intersect_scene(Ray(near, -emission.direction), INFINITY, false).t;
+        float blocked = find_blocker(Ray(near, -emission.direction));
         distance = light.cone.x * (1.0 + PAST_BLOCKER) + (blocked < INFINITY ? blocked * (1.0 + PAST_BLOCKER) : 0.0);
     }
     emission.origin -= distance * emission.direction;

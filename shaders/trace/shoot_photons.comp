@@ -41,7 +41,7 @@ uint scatter_diffuse(inout PathState path, Surface surface, vec3 normal, uvec4 r
 #endif
     if (survive(path, color, random.y)) {
         vec3 side = passes ? -normal : normal;
-        path.ray = leave_surface(surface, sample_cosine(side, to_unit_float(random.z), to_unit_float(random.w)));
+        path.ray = leave_surface(surface, leave_diffusely(surface, side, to_unit_float(random.z), to_unit_float(random.w)));
         path.met_diffuse = true;
     }
     return passes ? INTERACTION_TRANSMITTED : INTERACTION_REFLECTED;
@@ -107,7 +107,8 @@ uint scatter_dielectric(inout PathState path, Surface surface, uvec4 random) {
 
 // Stores the deposit if the set asks for it, then chooses a lobe and goes on.
 void meet_surface(inout PathState path, Surface surface, float distance) {
-    vec3 normal = face_arrival(surface, path.ray.direction);
+    vec3 arrival = path.ray.direction;
+    vec3 normal = face_arrival(surface, arrival);
     uvec4 random = random_words(settings.seed, path.index, path.bounce, 0u); // lobe, roulette, direction
 #ifdef HAS_ABSORPTION
     if (!survive(path, transmit_interior(surface, path.ray.direction, distance),
@@ -122,7 +123,6 @@ void meet_surface(inout PathState path, Surface surface, float distance) {
         end_path(path, OUTCOME_TRUNCATED);
     } else {
         float choice = to_unit_float(random.x);
-        vec3 arrival = path.ray.direction;
         if (choice < diffuse) interaction = scatter_diffuse(path, surface, normal, random, choice / diffuse);
 #ifdef HAS_MIRROR
         else if (choice < diffuse + shares.mirror) follow_lobe(path, surface, reflect_metal(surface, arrival, choose_facet(path)), random);
@@ -141,7 +141,7 @@ void meet_surface(inout PathState path, Surface surface, float distance) {
 #ifdef HAS_ROUGH
     scatter += (1.0 - diffuse) * min(surface.material.roughness_thin.x, 1.0);
 #endif
-    record_vertex(path, surface, normal, interaction, scatter, arriving, stores);
+    record_vertex(path, surface, face_smoothly(surface, arrival), interaction, scatter, arriving, stores);
 }
 
 // One segment of the path: to the next surface, or away.

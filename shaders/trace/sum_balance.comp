@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Counts paths by outcome and sums their flux by fate, over blocks of 64 paths in index order.
 // Inputs: summaries, deposited_flux, lost_flux, emitted_flux, emitters. Outputs: balance.
-// Define HAS_ENVIRONMENT_MAP: paths of a light do not all begin with the same flux.
+// Define HAS_COLORED_EMISSION: paths of a light do not all begin with the same flux.
 #include "shared/prelude.glsl"
 #include "shared/trace.h"
 #pragma binding readonly PathSummary summaries

@@ -176,8 +176,9 @@ def test_metal_and_transmission_follow_their_textures(tmp_path: Path) -> None:
             "index": writer.add_texture(encode(clear), magFilter=9728)
         }
         pane["pbrMetallicRoughness"]["baseColorFactor"] = [0.0, 0.0, 0.0, 1.0]
-        quad = build_quad(1.0, -5.0)
-        writer.add_mesh("pane", quad, pane, coordinates=[COORDINATES])
+        quad = build_quad(1.0)
+        beside = Mesh(quad.positions + [3.0, 0.0, 0.0], quad.normals, quad.indices)
+        writer.add_mesh("pane", beside, pane, coordinates=[COORDINATES])
         writer.add_directional_light("sun", (0.0, -1.0, 0.0), 1.0)
 
     scene = pl.load_scene(write(tmp_path, change))
@@ -185,6 +186,9 @@ def test_metal_and_transmission_follow_their_textures(tmp_path: Path) -> None:
     plate = photons.select(photons.object == 0)
     assert len(plate) > 1000  # its diffuse half stores, its metal half does not
     assert (plate.positions[:, 0] > -0.01).all()
+    pane = photons.select(photons.object == 1)
+    assert len(pane) > 1000  # its black half stores, its clear half lets pass or reflects
+    assert (pane.positions[:, 2] > -0.01).all()
     assert "roughness" in scene.report["left_out"]  # the texture says 0 everywhere
 
 
@@ -343,3 +347,104 @@ def test_a_textured_lamp_sends_what_its_texture_shows(tmp_path: Path) -> None:
         samples=1,
     )
     np.testing.assert_allclose(np.asarray(seen).mean(axis=(0, 1)), color, rtol=1e-5)
+
+
+def tilt_codes(tilt: Doubles) -> Codes:
+    return np.ascontiguousarray(np.broadcast_to(np.round((tilt + 1.0) * 127.5).astype(np.uint8), (4, 4, 3)))
+
+
+def add_tilted_floor(writer: GltfWriter, angle: float) -> None:
+    floor = make_diffuse("floor", 1.0)
+    tilt = np.array([np.sin(angle), 0.0, np.cos(angle)])
+    floor["normalTexture"] = {"index": writer.add_texture(encode(tilt_codes(tilt)))}
+    writer.add_mesh("floor", build_quad(1.0), floor, coordinates=[COORDINATES])
+    writer.add_directional_light("sun", (0.0, -1.0, 0.0), np.pi)
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.3, 0.7])
+def test_a_normal_texture_leaves_photons_and_their_density_alone(tmp_path: Path, angle: float) -> None:
+    """Light goes about the turned normal, is stored on the surface as it is, and never leaks through it."""
+    scene = pl.load_scene(write(tmp_path, lambda writer: add_tilted_floor(writer, angle)))
+    photons = pl.trace_photons(scene, emitted=1 << 16, store="all", seed=1)
+    np.testing.assert_allclose(photons.irradiance([[0.1, 0.0, 0.2]], [0, 1, 0], k=200)[0], np.pi, rtol=0.1)
+    np.testing.assert_allclose(photons.normals[0], [0.0, 1.0, 0.0], atol=1e-6)
+    seen = look_down(scene, np.array([[0.3, 0.1]]))[0]
+    np.testing.assert_allclose(seen, np.cos(angle), atol=0.02)  # direct light sees the turned normal
+
+
+def test_light_does_not_leak_through_a_turned_normal(tmp_path: Path) -> None:
+    def change(writer: GltfWriter) -> None:
+        add_tilted_floor(writer, 1.0)
+        writer.add_mesh("below", build_quad(5.0, -0.5), make_diffuse("below", 0.0))
+
+    photons = pl.trace_photons(pl.load_scene(write(tmp_path, change)), emitted=1 << 14, store="all", max_bounces=2)
+    below = photons.positions[photons.object == 1]
+    assert (np.abs(below[:, [0, 2]]).max(axis=1) > 1.0 - 1e-3).all()
+
+
+@pytest.mark.parametrize("first", [0, 1, 2])
+def test_normal_textures_do_not_depend_on_the_order_of_corners(tmp_path: Path, first: int) -> None:
+    """A long plate, ten to one, tilted 20 degrees along u."""
+    angle = np.radians(20.0)
+    codes = tilt_codes(np.array([np.sin(angle), 0.0, np.cos(angle)]))
+
+    def change(writer: GltfWriter) -> None:
+        mirror = make_mirror("mirror", (1.0, 1.0, 1.0))
+        mirror["normalTexture"] = {"index": writer.add_texture(encode(codes))}
+        quad = build_quad(0.01)
+        plate = Mesh(quad.positions * [1.0, 1.0, 10.0], quad.normals, np.roll(quad.indices, first, axis=1))
+        writer.add_mesh("mirror", plate, mirror, coordinates=[COORDINATES])
+        ceiling = build_quad(50.0, 10.0)
+        down = Mesh(ceiling.positions, -ceiling.normals, ceiling.indices[:, ::-1])
+        writer.add_mesh("ceiling", down, make_diffuse("c", 0.0))
+        writer.add_spot_light("spot", (0.0, 5.0, 0.0), (0.0, 0.0, 0.0), 1.0, 1e-3, 1e-3)
+
+    photons = pl.trace_photons(pl.load_scene(write(tmp_path, change)), emitted=1 << 12)
+    np.testing.assert_allclose(photons.positions.mean(axis=0), [10.0 * np.tan(2.0 * angle), 10.0, 0.0], atol=0.1)
+
+
+def test_coordinates_far_away_read_as_zero(tmp_path: Path) -> None:
+    codes = np.full((4, 4, 3), 255, dtype=np.uint8)
+    transform = {"scale": [1e6, 1e6], "offset": [1e6, -1e6]}
+    image = encode(codes)
+
+    def change(writer: GltfWriter) -> None:
+        add_painted_floor(writer, image, coordinates=COORDINATES * 1e35, transform=transform)
+
+    scene = pl.load_scene(write(tmp_path, change))
+    assert any("read as 0" in line or "reads as 0" in line for line in scene.report["notes"])
+    np.testing.assert_allclose(look_down(scene, np.array([[0.3, 0.1]])), 1.0, rtol=1e-5)
+
+
+@pytest.mark.parametrize("mode", ["BLEND", "MASK"])
+def test_a_lamp_that_is_there_in_part_sends_its_part(tmp_path: Path, mode: str) -> None:
+    rgba = np.full((16, 16, 4), 255, dtype=np.uint8)
+    rgba[:, :8, 3] = 0
+
+    def change(writer: GltfWriter) -> None:
+        lamp = make_lamp(8.0)
+        lamp["alphaMode"] = mode
+        lamp["pbrMetallicRoughness"]["baseColorTexture"] = {"index": writer.add_texture(encode(rgba), magFilter=9728)}
+        writer.add_mesh("lamp", build_panel(0.25, 1.0), lamp, coordinates=[COORDINATES])
+        writer.add_mesh("floor", build_quad(1.0), make_diffuse("floor", 0.5))
+
+    scene = pl.load_scene(write(tmp_path, change))
+    emitted = pl.trace_photons(scene, emitted=1 << 12, store="all").report["flux"]["emitted"]
+    np.testing.assert_allclose(emitted, 0.5 * np.pi * 8.0 * np.array([1.0, 0.5, 0.25]) * 0.25, rtol=1e-3)
+
+
+@pytest.mark.parametrize(
+    "extension",
+    [{"KHR_materials_specular": {}}, {"KHR_materials_clearcoat": {"clearcoatFactor": 1.0}}],
+)
+def test_a_gloss_makes_caustics(tmp_path: Path, extension: dict[str, Any]) -> None:
+    def change(writer: GltfWriter) -> None:
+        plate = make_diffuse("plate", 0.5)
+        plate["pbrMetallicRoughness"]["roughnessFactor"] = 0.1
+        plate["extensions"] = extension
+        writer.add_mesh("plate", build_quad(1.0), plate)
+        writer.add_mesh("ceiling", build_quad(3.0, 3.0), make_diffuse("ceiling", 0.5))
+        writer.add_point_light("lamp", (0.0, 1.0, 0.0), 1.0)
+
+    photons = pl.trace_photons(pl.load_scene(write(tmp_path, change)), 2000)
+    assert (photons.object == 1).any()

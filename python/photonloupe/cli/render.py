@@ -102,7 +102,7 @@ def _find_photons(
 def _has_no_caustic(arguments: argparse.Namespace, scene: pl.Scene, settings: dict[str, Any]) -> bool:
     """Tell whether the default picture would be refused, for no light goes by way of anything specular."""
     asked = (arguments.map, arguments.script, arguments.relax)
-    specular = {"mirrors", "dielectrics", "thin glass"} & set(scene.report["requires"])
+    specular = {"mirrors", "dielectrics", "thin glass", "gloss and coats"} & set(scene.report["requires"])
     is_asked = settings.get("mode", "composite") == "composite" and asked == (None, None, None)
     return is_asked and bool(scene.lights) and not specular
 
