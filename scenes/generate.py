@@ -27,6 +27,8 @@ from gltf import (
     make_mirror,
 )
 from laid_table import build_table
+from marble_leaf import build_leaf
+from shaded_lamp import build_lamp
 from thumb_tack import build_tack
 
 # From so far up the rim hides only 2.6 % of a radius of floor behind it.
@@ -351,6 +353,8 @@ SCENES: dict[str, Callable[[], GltfWriter]] = {
     "table": build_table,
     "ball": build_ball_scene,
     "tack": build_tack,
+    "leaf": build_leaf,
+    "lamp": build_lamp,
 }
 
 # Too large to be committed.
