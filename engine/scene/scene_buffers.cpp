@@ -112,7 +112,9 @@ std::vector<std::string> list_scene_defines(const Scene& scene) {
         defines.emplace_back("HAS_LAYERS");
     if (scene.report.has_dispersion)
         defines.emplace_back("HAS_DISPERSION");
-    if (scene.report.has_absorption)
+    if (scene.report.has_media)
+        defines.emplace_back("HAS_MEDIA");
+    else if (scene.report.has_absorption)
         defines.emplace_back("HAS_ABSORPTION");
     return defines;
 }

@@ -53,7 +53,7 @@ PHOTON_COLUMNS = (
 PATH_COLUMNS = (
     Column("path_vertices", "f4", 3, of_vertices=True),
     Column("path_normals", "f4", 3, of_vertices=True),
-    Column("path_interactions", "u1", of_vertices=True, low=0, high=2),
+    Column("path_interactions", "u1", of_vertices=True, low=0, high=3),
     Column("path_objects", "i4", of_vertices=True, low=-1, high=LARGEST_OBJECT),
     Column("path_scatter", "f4", of_vertices=True, low=0.0, high=1.0),
 )

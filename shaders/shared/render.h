@@ -26,6 +26,19 @@ struct EyeSettings {
     uint slot_count;    // diffuse hits one sample may have
     uint max_bounces;
     vec4 environment;   // rgb radiance beyond everything that no image says, w the number of lights as bits
+    uvec4 media;        // xy: the camera's Media; z: stretches of one sample in media that are kept; w unused
+};
+
+// Stretches of eye paths in media meet the photons there.
+struct BeamSettings {
+    uint first;        // of this dispatch
+    uint count;
+    uint photon_count;
+    uint leaf_level;
+    float radius;      // of a photon, metres
+    uint pad0;
+    uint pad1;
+    uint pad2;
 };
 
 struct FilmSettings {

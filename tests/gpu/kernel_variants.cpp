@@ -17,7 +17,7 @@ const std::vector<std::string> EMISSIONS{"EMISSION 0", "EMISSION 1"};
 const std::vector<std::string> PATHS{"", "RECORD_PATHS"};
 const std::vector<std::string> MIRROR{"", "HAS_MIRROR"};
 const std::vector<std::string> DIELECTRIC{"", "HAS_DIELECTRIC"};
-const std::vector<std::string> ABSORPTION{"", "HAS_ABSORPTION"};
+const std::vector<std::string> ABSORPTION{"", "HAS_ABSORPTION", "HAS_MEDIA"};
 const std::vector<std::string> PAINT{"", "HAS_TEXTURES", "HAS_VERTEX_COLORS",
                                      "HAS_TEXTURES\n#define HAS_VERTEX_COLORS\n#define HAS_ALPHA"},
     MATTER{"", "HAS_ROUGH",
