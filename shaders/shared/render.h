@@ -35,10 +35,6 @@ struct BeamSettings {
     uint count;
     uint photon_count;
     uint leaf_level;
-    float radius;      // of a photon, metres
-    uint pad0;
-    uint pad1;
-    uint pad2;
 };
 
 struct FilmSettings {
@@ -53,7 +49,7 @@ struct FilmSettings {
     uint uses_emission;
     uint uses_colors;   // false color: of a surface's color only its luminance counts
     uint seed;
-    uint pad0;
+    uint beam_count;    // of each sample, in media
 };
 
 struct PlotSettings {

@@ -60,7 +60,9 @@ const std::vector<std::string> DESCRIPTORS{"DESCRIPTOR 1", "DESCRIPTOR 2", "DESC
 
 // Kernels that are not named here take no defines.
 const std::map<std::string, Factors> FACTORS{
-    {"estimate/estimate_irradiance.comp", {KERNELS, {SURFACE[2]}, {"", "ONE_NORMAL"}, {TIES[1]}, SINGLY}},
+    {"estimate/accumulate_film.comp", {{"", "HAS_MEDIA"}}},
+    {"estimate/estimate_irradiance.comp", {KERNELS, {SURFACE[2], "IN_SPACE"}, {"", "ONE_NORMAL"}, {TIES[1]}, SINGLY}},
+    {"estimate/gather_beams.comp", {{"HAS_MEDIA"}}},
     {"estimate/light_direct.comp", {SPOT, DIRECTIONAL, AREA, ENVIRONMENT, PAINT}},
     {"estimate/trace_eye.comp", {MIRROR, DIELECTRIC, ABSORPTION, MATTER, OTHER_LIGHTS}},
     {"estimate/plot_photons.comp", {PAINT}},
