@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Follows eye paths through mirrors and glass to the diffuse surfaces they see.
-// Inputs: scene, environment_map. Outputs: per slot hit_point (xyz, w 1: used), hit_normal, hit_weight (rgb: radiance per irradiance);
+// Inputs: scene, environment_map. Outputs: per slot hit_point (xyz, w 1: used), hit_normal (w bits: the medium there), hit_weight (rgb: radiance per irradiance);
 // per sample eye_emission (rgb: emitted radiance seen).
 // Dielectrics split into both directions while slots last, then one is chosen at random.
 // Rough surfaces send each path on one way, and show point, spot and directional lights themselves (lights).
@@ -46,6 +46,7 @@ uint waiting_count = 0u;
 uint sample_index;
 uint used_slots = 0u;
 uint used_beams = 0u;
+uint hit_medium = 0u; // Media::inner where a surface is met
 vec3 seen_emission = vec3(0.0);
 
 // Which facet of a rough surface the path meets, in [0, 1)².
@@ -90,7 +91,7 @@ void record_hit(Surface surface, vec3 normal, vec3 weight) {
     if (used_slots >= settings.slot_count) return;
     uint at = locate_slot(used_slots);
     hit_point[at] = vec4(leave_surface(surface, normal).origin, 1.0);
-    hit_normal[at] = vec4(normal, 0.0);
+    hit_normal[at] = vec4(normal, uintBitsToFloat(hit_medium));
     hit_weight[at] = vec4(weight / PI, 1.0);
     ++used_slots;
 }
@@ -224,6 +225,7 @@ bool follow_surface(inout Branch branch, Surface surface, float distance) {
     vec3 normal = face_arrival(surface, branch.ray.direction);
 #ifdef HAS_MEDIA
     look_through(branch, surface, distance);
+    hit_medium = branch.media.inner;
 #elif defined(HAS_ABSORPTION)
     branch.weight *= transmit_interior(surface, branch.ray.direction, distance);
 #endif

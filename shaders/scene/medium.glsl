@@ -2,6 +2,9 @@
 // What lies inside of solid transmissive objects: where rays enter and leave it, how far light flies in it, where it
 // goes when it is scattered (METHODS §11). Included where HAS_MEDIA is defined.
 
+// Borders that straight light passes at most.
+const uint LARGEST_PASSED_BORDERS = 256u;
+
 struct Medium {
     vec3 extinction; // 1/m
     vec3 albedo;     // share of it that is scattered
@@ -94,4 +97,35 @@ vec3 sample_phase(float anisotropy, vec3 direction, uint random, uint turn) {
     vec3 a, b;
     build_basis(direction, a, b);
     return normalize_safely(sine * (c * a + s * b) + cosine * direction);
+}
+
+// Share of light that goes straight to `distance`: the borders of fogs let it through, what lies between weakens it
+// (`weakens`; without it one looks into all that scatters), other surfaces are in its way.
+vec3 pass_media(Ray ray, float distance, Media media, bool weakens) {
+    vec3 share = vec3(1.0);
+    bool goes_on = true;
+    for (uint i = 0u; i < LARGEST_PASSED_BORDERS && goes_on; ++i) {
+        Hit hit = intersect_scene(ray, distance, false);
+        goes_on = hit.t < distance;
+        Surface surface;
+        if (goes_on) {
+            surface = load_surface(hit);
+            arrive(media, surface, ray.direction);
+        }
+        float way = min(hit.t, distance);
+        if (weakens && media.inner != 0u && way < INFINITY) share *= transmit(load_medium(media.inner).extinction, way);
+        if (!goes_on) return share;
+        bool is_open = is_matched(surface.material) || (!weakens && scatters(load_medium(surface.triangle + 1u)));
+        vec3 passing = is_open ? weigh_dielectric(surface.material) * surface.material.base_color_metallic.rgb : vec3(0.0);
+        cross_boundary(media, surface, ray.direction);
+#ifdef HAS_ALPHA
+        float coverage = find_coverage(surface.material);
+        passing = coverage * passing + (1.0 - coverage);
+#endif
+        share *= passing;
+        goes_on = share != vec3(0.0);
+        ray = leave_surface(surface, ray.direction);
+        distance -= hit.t;
+    }
+    return goes_on ? share : vec3(0.0);
 }
