@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stretches of eye paths inside of media, and what the photons there send along them (METHODS §11).
+// Stretches of eye paths inside of media, and what the photons there send along them (METHODS §13).
 #pragma once
 
 #include "estimate/media_photons.h"

@@ -93,8 +93,8 @@ gpu::Buffer estimate_fluence_at(gpu::Device& device, const Scene& scene, const M
     radius.cuts_ties = true;
     find_radii(device, neighborhood, queries, radius, radii, STAGE, progress);
     GatherKernel kernel{"estimate/estimate_irradiance.comp", {"CUT_TIES", "BY_ID", "KERNEL 0", "IN_SPACE"}, {}};
-    for (const gpu::Binding& binding : {gpu::Binding{"radii", radii}, {"power_object", power}, {"result_rows", rows},
-                                        {"irradiance", fluence}})
+    for (const gpu::Binding& binding :
+         {gpu::Binding{"radii", radii}, {"power_object", power}, {"result_rows", rows}, {"irradiance", fluence}})
         kernel.bindings.push_back(binding);
     gather(device, neighborhood, queries, kernel, make_gather_settings(neighborhood, radius.rank), STAGE, progress);
     return fluence;

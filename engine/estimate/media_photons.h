@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The photons of a map that were stored inside of media: their tree, and the fluence they tell of (METHODS §11).
+// The photons of a map that were stored inside of media: their tree, and the fluence they tell of (METHODS §13).
 #pragma once
 
 #include <span>

@@ -18,8 +18,8 @@
 namespace photonloupe {
 namespace {
 
-// Diffuse hits one sample may have where paths split: what glass reflects and transmits, what lies on both sides of a leaf
-// and under a gloss.
+// Diffuse hits one sample may have where paths split: what glass reflects and transmits, what lies on both sides of a
+// leaf and under a gloss.
 constexpr std::uint32_t SPLIT_SLOTS = 4;
 // Slots of one chunk: a software device follows their rays in a tenth of a second, which Ctrl-C waits for.
 constexpr std::uint64_t CHUNK_SLOTS = 1ull << 17;
@@ -168,9 +168,8 @@ Image Renderer::run(const Progress& progress) {
     film = gpu::Buffer(device, pixels * sizeof(glm::vec4), "film");
     const std::uint64_t per_chunk =
         std::max<std::uint64_t>(1, CHUNK_SLOTS / (std::uint64_t{settings.samples} * film_push.slot_count));
-    const FilmScratch scratch =
-        allocate_scratch(device, std::min(per_chunk, pixels) * settings.samples, film_push.slot_count,
-                         film_push.beam_count);
+    const FilmScratch scratch = allocate_scratch(device, std::min(per_chunk, pixels) * settings.samples,
+                                                 film_push.slot_count, film_push.beam_count);
     if (film_push.uses_map && !film_push.uses_colors && scene.report.has_media)
         media = prepare_media_light(device, scene, map->photons, choose_k(settings.estimate), progress);
     for (std::uint64_t first = 0; first < pixels; first += per_chunk) {

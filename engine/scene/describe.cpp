@@ -151,7 +151,10 @@ SceneFeatures list_features(const Scene& scene) {
                                                      {report.has_thin, "thin glass"},
                                                      {!scene.textures.empty(), "textures"},
                                                      {!scene.corner_colors.empty(), "vertex colors"},
-                                                     {report.has_alpha, "alpha"}, {report.has_translucency, "translucency"}, {report.has_layers, "gloss and coats"}, {report.has_dispersion, "dispersion"},
+                                                     {report.has_alpha, "alpha"},
+                                                     {report.has_translucency, "translucency"},
+                                                     {report.has_layers, "gloss and coats"},
+                                                     {report.has_dispersion, "dispersion"},
                                                      {report.has_media, "participating media"},
                                                      {report.has_emission, "emission seen by cameras"}};
     SceneFeatures result;

@@ -12,7 +12,8 @@ namespace photonloupe {
 namespace {
 
 // Along no edge or diagonal that anybody models.
-const glm::dvec3 OUTWARD = glm::normalize(glm::dvec3(0.5257311, 0.7236068, 0.4472136) + glm::dvec3(0.0137, 0.0071, 0.0193));
+const glm::dvec3 OUTWARD =
+    glm::normalize(glm::dvec3(0.5257311, 0.7236068, 0.4472136) + glm::dvec3(0.0137, 0.0071, 0.0193));
 
 struct Crossing {
     double distance = 0;
@@ -22,7 +23,8 @@ struct Crossing {
 };
 
 // Möller and Trumbore 1997, in double.
-bool meet(const glm::dvec3& place, const glm::dvec3& v0, const glm::dvec3& v1, const glm::dvec3& v2, Crossing& crossing) {
+bool meet(const glm::dvec3& place, const glm::dvec3& v0, const glm::dvec3& v1, const glm::dvec3& v2,
+          Crossing& crossing) {
     const glm::dvec3 e1 = v1 - v0, e2 = v2 - v0, p = glm::cross(OUTWARD, e2), s = place - v0, q = glm::cross(s, e1);
     const double determinant = glm::dot(e1, p);
     const double u = glm::dot(s, p) / determinant, v = glm::dot(OUTWARD, q) / determinant;

@@ -14,13 +14,22 @@
 namespace photonloupe {
 namespace {
 
-constexpr std::array<std::string_view, 16> KNOWN_EXTENSIONS{
-    "KHR_lights_punctual",        "KHR_materials_transmission",      "KHR_materials_volume",
-    "KHR_materials_ior",          "KHR_materials_emissive_strength", "KHR_mesh_quantization",
-    "KHR_draco_mesh_compression", "EXT_meshopt_compression",         "EXT_mesh_gpu_instancing",
-    "KHR_texture_transform",      "EXT_texture_webp",                "KHR_materials_diffuse_transmission",
-    "KHR_materials_specular",     "KHR_materials_clearcoat",         "KHR_materials_dispersion",
-    "KHR_materials_volume_scatter"};
+constexpr std::array<std::string_view, 16> KNOWN_EXTENSIONS{"KHR_lights_punctual",
+                                                            "KHR_materials_transmission",
+                                                            "KHR_materials_volume",
+                                                            "KHR_materials_ior",
+                                                            "KHR_materials_emissive_strength",
+                                                            "KHR_mesh_quantization",
+                                                            "KHR_draco_mesh_compression",
+                                                            "EXT_meshopt_compression",
+                                                            "EXT_mesh_gpu_instancing",
+                                                            "KHR_texture_transform",
+                                                            "EXT_texture_webp",
+                                                            "KHR_materials_diffuse_transmission",
+                                                            "KHR_materials_specular",
+                                                            "KHR_materials_clearcoat",
+                                                            "KHR_materials_dispersion",
+                                                            "KHR_materials_volume_scatter"};
 
 // Parts of names: what follows the vendor's letters in "KHR_materials_unlit" or "EXT_texture_webp".
 constexpr std::array<std::string_view, 6> DISPENSABLE_KINDS{"_materials_", "_texture_", "_lights_",

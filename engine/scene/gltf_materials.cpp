@@ -75,19 +75,19 @@ void write_medium(const JsonPlace& material, Json& extensions) {
         if (name != "scattering" && name != "anisotropy")
             refuse(own, "no medium has " + quote_text(name), "use scattering and anisotropy");
     const std::vector<double> coefficients = read_numbers_or(scattering, {0, 0, 0}, SCATTERING);
-    const bool has_inside =
-        extensions["KHR_materials_transmission"]["transmissionFactor"] > 0 &&
-        extensions.contains("KHR_materials_volume") && extensions["KHR_materials_volume"]["thicknessFactor"] > 0;
+    const bool has_inside = extensions["KHR_materials_transmission"]["transmissionFactor"] > 0 &&
+                            extensions.contains("KHR_materials_volume") &&
+                            extensions["KHR_materials_volume"]["thicknessFactor"] > 0;
     if (!has_inside && coefficients != std::vector<double>{0, 0, 0})
         refuse(scattering, "light scatters only inside of what it enters",
                "set KHR_materials_transmission's transmissionFactor and KHR_materials_volume's thicknessFactor");
-    extensions["photonloupe"] = {
-        {"scattering", coefficients},
-        {"anisotropy", read_number_or(find_member(own, "anisotropy"), 0.0, ANISOTROPY)}};
+    extensions["photonloupe"] = {{"scattering", coefficients},
+                                 {"anisotropy", read_number_or(find_member(own, "anisotropy"), 0.0, ANISOTROPY)}};
 }
 
 // Members of an extension, where it is there: numbers, colors.
-void write_extension(const JsonPlace& material, const char* name, std::initializer_list<std::pair<const char*, double>> numbers,
+void write_extension(const JsonPlace& material, const char* name,
+                     std::initializer_list<std::pair<const char*, double>> numbers,
                      std::initializer_list<const char*> colors, NumberRange range, Json& extensions) {
     const JsonPlace extension = find_extension(material, name);
     if (!extension.value)
@@ -120,10 +120,10 @@ Json check_material(const JsonPlace& place) {
                     {"diffuseTransmissionColorFactor"}, UNIT, extensions);
     write_extension(place, "KHR_materials_specular", {{"specularFactor", 1.0}}, {"specularColorFactor"}, POWER,
                     extensions);
-    write_extension(place, "KHR_materials_clearcoat", {{"clearcoatFactor", 0.0}, {"clearcoatRoughnessFactor", 0.0}},
-                    {}, UNIT, extensions);
-    extensions["KHR_materials_dispersion"]["dispersion"] = read_number_or(
-        find_member(find_extension(place, "KHR_materials_dispersion"), "dispersion"), 0.0, DISPERSION);
+    write_extension(place, "KHR_materials_clearcoat", {{"clearcoatFactor", 0.0}, {"clearcoatRoughnessFactor", 0.0}}, {},
+                    UNIT, extensions);
+    extensions["KHR_materials_dispersion"]["dispersion"] =
+        read_number_or(find_member(find_extension(place, "KHR_materials_dispersion"), "dispersion"), 0.0, DISPERSION);
     return {{"name", read_string_or(find_member(place, "name"), "")},
             {"pbrMetallicRoughness",
              {{"baseColorFactor", read_numbers_or(find_member(pbr, "baseColorFactor"), {1, 1, 1, 1}, UNIT)},

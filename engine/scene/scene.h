@@ -50,8 +50,8 @@ struct SceneReport {
     bool has_translucency = false;
     bool has_layers = false; // gloss or coat
     bool has_dispersion = false;
-    bool has_media = false; // that scatter light
-    bool has_colored_lamps = false; // textured unevenly
+    bool has_media = false;          // that scatter light
+    bool has_colored_lamps = false;  // textured unevenly
     bool has_mixed_receiver = false; // a surface that is diffuse in part
     bool has_diffuse = false;
     bool has_emission = false;
@@ -112,8 +112,7 @@ inline bool has_gloss(const shared::Material& material) {
 
 // Light bends and is weakened inside: transmissive and not thin.
 inline bool is_solid(const shared::Material& material) {
-    return material.base_color_metallic.w < 1 && material.emission_transmission.w > 0 &&
-           material.roughness_thin.y == 0;
+    return material.base_color_metallic.w < 1 && material.emission_transmission.w > 0 && material.roughness_thin.y == 0;
 }
 
 inline bool scatters(const shared::Material& material) {

@@ -6,7 +6,6 @@ from __future__ import annotations
 from photonloupe.checks import check_count
 from photonloupe.errors import ArgumentError
 
-
 _SCATTERED = 3
 
 

@@ -50,7 +50,9 @@ class PhotonColumns:
         return int(self._native.count)
 
     positions = _Column[Float3]("Where the photons are stored, (n, 3), m.")
-    normals = _Column[Float3]("Unit normal of the surface, on the side the light came from; in a medium half the way back, (n, 3).")
+    normals = _Column[Float3](
+        "Unit normal of the surface, on the side the light came from; in a medium half the way back, (n, 3)."
+    )
     power = _Column[Float3]("Flux carried, (n, 3), W per channel.")
     emitter = _Column[NDArray[np.int32]]("Index of the light, (n,).")
     emitted_index = _Column[NDArray[np.uint64]](

@@ -109,7 +109,7 @@ class PhotonStages(DevicePhotons):
         return queries.estimate_irradiance(self, points, normals, progress=progress, **settings)
 
     def fluence(self, points: ArrayLike, *, k: int | None = None, progress: ProgressLike = None) -> Float3:
-        """Estimate the fluence inside of media from the k nearest photons there (METHODS section 11).
+        """Estimate the fluence inside of media from the k nearest photons there (METHODS section 13).
 
         Parameters
         ----------

@@ -54,6 +54,4 @@ def estimate_fluence(
         raise ArgumentError("the map knows of no scene, whose media fluence is asked of; trace one")
     native = photons.device._native
     with follow_progress(progress) as callback:
-        return np.asarray(
-            _engine.estimate_fluence(native, photons._native, scene._native, where, settings, callback)
-        )
+        return np.asarray(_engine.estimate_fluence(native, photons._native, scene._native, where, settings, callback))

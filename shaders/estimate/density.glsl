@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernels of density estimation (METHODS §2). Define KERNEL, IN_SPACE (METHODS §11: balls instead of discs).
+// The kernels of density estimation (METHODS §2). Define KERNEL, IN_SPACE (METHODS §13: balls instead of discs).
 #include "shared/math.glsl"
 
 // r for a set that takes every photon: a little beyond the farthest, so that its weight is not lost to rounding.

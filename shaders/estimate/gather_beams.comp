@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Radiance that photons in media send along stretches of eye paths: beam × point (METHODS §11).
+// Radiance that photons in media send along stretches of eye paths: beam × point (METHODS §13).
 // Inputs: scene, the tree, photon_light (tree order: rgb scattered flux in W, w bits: object), photon_radii (tree
 // order, metres), node_reaches (by heap index: the largest radius below), beam_origin (xyz, w length; 0: none),
 // beam_direction (xyz, w bits: boundary of the medium + 1). In and out: beam_cursor (the node to go on with, 0: done),

@@ -6,7 +6,7 @@
 // Rough surfaces send each path on one way, and show point, spot and directional lights themselves (lights).
 // Defines: HAS_DIELECTRIC, HAS_MIRROR, HAS_ROUGH (then also those of lights), HAS_ABSORPTION, HAS_TEXTURES,
 // HAS_VERTEX_COLORS, HAS_ALPHA, HAS_ENVIRONMENT_MAP, HAS_TRANSLUCENCY, HAS_LAYERS, HAS_DISPERSION,
-// HAS_MEDIA (then not HAS_ABSORPTION): outputs beam_origin, beam_direction, beam_weight of stretches in media (METHODS §11).
+// HAS_MEDIA (then not HAS_ABSORPTION): outputs beam_origin, beam_direction, beam_weight of stretches in media (METHODS §13).
 #include "shared/prelude.glsl"
 #include "shared/random.h"
 #include "shared/render.h"
@@ -213,7 +213,9 @@ void look_through(inout Branch branch, Surface surface, float distance) {
         uint at = locate_beam(used_beams);
         beam_origin[at] = vec4(branch.ray.origin, distance);
         beam_direction[at] = vec4(branch.ray.direction, uintBitsToFloat(branch.media.inner));
-        beam_weight[at] = vec4(branch.weight, 0.0);
+        // Radiance goes with the square of the index, which the way in and out of glass need not say.
+        float camera_ior = settings.media.x == 0u ? 1.0 : load_medium(settings.media.x).ior;
+        beam_weight[at] = vec4(branch.weight * square(camera_ior / medium.ior), 0.0);
         ++used_beams;
     }
     branch.weight *= transmit(medium.extinction, distance);

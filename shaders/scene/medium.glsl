@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What lies inside of solid transmissive objects: where rays enter and leave it, how far light flies in it, where it
-// goes when it is scattered (METHODS §11). Included where HAS_MEDIA is defined.
+// goes when it is scattered (METHODS §13). Included where HAS_MEDIA is defined.
 
 // Borders that straight light passes at most.
 const uint LARGEST_PASSED_BORDERS = 256u;
@@ -9,6 +9,7 @@ struct Medium {
     vec3 extinction; // 1/m
     vec3 albedo;     // share of it that is scattered
     float anisotropy;
+    float ior;
     uint object;     // whose inside it is
 };
 
@@ -23,9 +24,10 @@ uint find_boundary_object(uint boundary) { return floatBitsToUint(load_corner(bo
 Medium load_medium(uint boundary) {
     uint first = MATERIAL_TEXELS * floatBitsToUint(load_corner(boundary - 1u, 1u).w);
     vec4 scattering = materials_at(first + MATERIAL_TEXELS - 1u);
-    vec3 extinction = materials_at(first + 1u).rgb + scattering.rgb;
+    vec4 absorption_ior = materials_at(first + 1u);
+    vec3 extinction = absorption_ior.rgb + scattering.rgb;
     vec3 albedo = mix(scattering.rgb / extinction, vec3(0.0), equal(extinction, vec3(0.0)));
-    return Medium(extinction, albedo, scattering.w, find_boundary_object(boundary));
+    return Medium(extinction, albedo, scattering.w, absorption_ior.w, find_boundary_object(boundary));
 }
 
 bool scatters(Medium medium) { return medium.albedo != vec3(0.0); }

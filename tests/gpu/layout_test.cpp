@@ -25,15 +25,15 @@ namespace {
 #define STRUCT(type) {#type, measure_host_struct<shared::type>()}
 
 const std::map<std::string, HostStruct> HOST_STRUCTS{
-    STRUCT(Triangle),        STRUCT(TriangleNormals),  STRUCT(Material),         STRUCT(Light),
-    STRUCT(BvhNode),         STRUCT(SceneHeader),      STRUCT(TraceSettings),    STRUCT(LightEmission),
-    STRUCT(PathSummary),     STRUCT(BalanceSum),       STRUCT(TreeNode),         STRUCT(TreeBuild),
-    STRUCT(ReachSettings),   STRUCT(ListSettings),     STRUCT(SortSettings),     STRUCT(CameraFrame),
-    STRUCT(EyeSettings),     STRUCT(FilmSettings),     STRUCT(PlotSettings),     STRUCT(TreeRefit),
-    STRUCT(GatherSettings),  STRUCT(RepelSettings),    STRUCT(DescribeSettings), STRUCT(MoveSettings),
-    STRUCT(CrossingJob),     STRUCT(CrossingSettings), STRUCT(CoverageSettings), STRUCT(BlendSettings),
-    STRUCT(PixelSettings),   STRUCT(SurfaceSettings),  STRUCT(CellSettings),     STRUCT(SplatSettings),
-    STRUCT(ResolveSettings), STRUCT(TreeBracket),      STRUCT(EmittingTriangle), STRUCT(EnvironmentHeader),
+    STRUCT(Triangle),        STRUCT(TriangleNormals),  STRUCT(Material),          STRUCT(Light),
+    STRUCT(BvhNode),         STRUCT(SceneHeader),      STRUCT(TraceSettings),     STRUCT(LightEmission),
+    STRUCT(PathSummary),     STRUCT(BalanceSum),       STRUCT(TreeNode),          STRUCT(TreeBuild),
+    STRUCT(ReachSettings),   STRUCT(ListSettings),     STRUCT(SortSettings),      STRUCT(CameraFrame),
+    STRUCT(EyeSettings),     STRUCT(FilmSettings),     STRUCT(PlotSettings),      STRUCT(TreeRefit),
+    STRUCT(GatherSettings),  STRUCT(RepelSettings),    STRUCT(DescribeSettings),  STRUCT(MoveSettings),
+    STRUCT(CrossingJob),     STRUCT(CrossingSettings), STRUCT(CoverageSettings),  STRUCT(BlendSettings),
+    STRUCT(PixelSettings),   STRUCT(SurfaceSettings),  STRUCT(CellSettings),      STRUCT(SplatSettings),
+    STRUCT(ResolveSettings), STRUCT(TreeBracket),      STRUCT(EmittingTriangle),  STRUCT(EnvironmentHeader),
     STRUCT(Texture),         STRUCT(MaterialPaint),    STRUCT(CornerCoordinates), STRUCT(CornerColors),
     STRUCT(BeamSettings),
 };

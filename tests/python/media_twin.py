@@ -85,14 +85,13 @@ def pass_slab(
 def find_point_fluence(radius: float, albedo: float) -> float:
     """Fluence of a source of 1 W in an infinite medium that scatters evenly, extinction 1/m, W/m².
 
-    The transform of the flux is A/(1 - cA) with A = atan(k)/k (Case and Zweifel 1967); what was never scattered is taken
-    out, whose transform is A alone.
+    The transform of the fluence is A/(1 - cA) with A = atan(k)/k (Case and Zweifel 1967); of that A is what was never
+    scattered, whose closed form is known.
     """
     from scipy.integrate import quad  # noqa: PLC0415 - only these tests need SciPy
 
     def transform(k: float) -> float:
         a = np.arctan(k) / k if k > 1e-8 else 1.0
-        # The slow tail of k c A² is that of c (π/2)²/k, less what is regular at 0.
         return k * albedo * a * a / (1.0 - albedo * a)
 
     limit = 400.0

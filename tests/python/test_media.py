@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -99,7 +100,7 @@ def test_paths_and_flux_are_balanced(tmp_path: Path, store: str) -> None:
 
 
 def test_the_border_of_a_fog_neither_bends_nor_reflects(tmp_path: Path) -> None:
-    """A fog too thin to stop anything changes no photon, however flat light meets it and however rough it is said."""
+    """A fog too thin to stop anything moves no photon by more than rays start off a surface, however flat they are."""
 
     def change(writer: GltfWriter, has_fog: bool) -> None:
         writer.add_mesh("floor", build_quad(2.0), make_diffuse("floor", 0.5))
@@ -117,7 +118,7 @@ def test_the_border_of_a_fog_neither_bends_nor_reflects(tmp_path: Path) -> None:
     direct = np.unique(clear.emitted_index, return_index=True)[1]
     through = np.unique(first.emitted_index, return_index=True)[1]
     assert len(direct) == len(through)
-    np.testing.assert_allclose(clear.positions[direct], first.positions[through], atol=1e-5)
+    np.testing.assert_allclose(clear.positions[direct], first.positions[through], atol=3e-5)
     np.testing.assert_allclose(clear.power[direct], first.power[through], rtol=1e-6)
 
 
@@ -227,6 +228,22 @@ def test_a_picture_shows_light_scattered_once(tmp_path: Path, eye: tuple[float, 
     assert shown == pytest.approx(look_through_fog(np.array(eye), target, g, 1e-3), rel=0.02)
 
 
+def test_a_medium_of_another_index_shows_less_than_it_holds(tmp_path: Path) -> None:
+    """Radiance is divided by n² on leaving; sun and eye straight above, light scattered once."""
+    ior, albedo, depth = 1.5, 1e-3, 3.0
+
+    def change(writer: GltfWriter) -> None:
+        medium = make_medium((albedo,) * 3, (1.0 - albedo,) * 3, ior=ior)
+        writer.add_mesh("slab", build_box((-1.0, -depth, -1.0), (1.0, 0.0, 1.0)), medium)
+        writer.add_directional_light("sun", (0.0, -1.0, 0.0), 1.0)
+
+    scene = load(tmp_path, change)
+    camera = pl.Camera(position=(0.0, 5.0, 0.0), target=(0.0, 0.0, 0.0), yfov=0.1, up=(0.0, 0.0, -1.0))
+    image = pl.render(scene, trace_all(scene), camera=camera, width=16, height=16, samples=8, mode="caustic", k=8)
+    truth = 0.96**2 / ior**2 * albedo / (4.0 * np.pi) * 0.5 * (1.0 - np.exp(-2.0 * depth))
+    assert float(np.asarray(image, dtype=np.float64).mean()) == pytest.approx(truth, rel=0.03)
+
+
 def test_fog_weakens_direct_light_and_what_is_seen(tmp_path: Path) -> None:
     def change(writer: GltfWriter) -> None:
         writer.add_mesh("floor", build_quad(1.0, 0.1), make_diffuse("floor", 0.5))
@@ -273,9 +290,7 @@ def test_everything_else_takes_maps_with_photons_in_media(tmp_path: Path) -> Non
     np.testing.assert_array_equal(relaxed.positions[in_fog], photons.positions[in_fog])
     assert np.abs(relaxed.positions[~in_fog] - photons.positions[~in_fog]).max() > 0.0
     assert set(np.unique(photons.path_interactions)) == {0, 1, 2, 3}
-    np.testing.assert_allclose(
-        photons.path_normals[np.flatnonzero(photons.path_interactions == 3)], 0.0, atol=0.51
-    )
+    np.testing.assert_allclose(photons.path_normals[np.flatnonzero(photons.path_interactions == 3)], 0.0, atol=0.51)
     relaxed.save(tmp_path / "fog.zarr")
     again = pl.load_photons(tmp_path / "fog.zarr")
     np.testing.assert_array_equal(again.normals, photons.normals)
@@ -333,5 +348,7 @@ def test_khronos_volume_scatter_is_read(tmp_path: Path) -> None:
     text = scene.describe()
     assert "required: dielectrics" in text
     assert "participating media" in text.split("left out")[0]
-    assert "scattering (2, 0, 1.8" in text
+    told = re.search(r"scattering \((.*?)\)", text)
+    assert told is not None
+    np.testing.assert_allclose([float(number) for number in told[1].split(",")], [2.0, 0.0, 1.8235], atol=1e-3)
     assert "anisotropy 0.25" in text
