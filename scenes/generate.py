@@ -15,6 +15,7 @@ from pathlib import Path
 
 from crowded_floor import build_crowd
 from extrusion import Corner, build_bar
+from foggy_ball import build_fog
 from glass_ball import build_ball_scene
 from gltf import (
     GltfWriter,
@@ -351,6 +352,7 @@ SCENES: dict[str, Callable[[], GltfWriter]] = {
     "table": build_table,
     "ball": build_ball_scene,
     "tack": build_tack,
+    "fog": build_fog,
 }
 
 # Too large to be committed.

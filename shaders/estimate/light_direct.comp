@@ -7,10 +7,9 @@
 #include "shared/prelude.glsl"
 #include "shared/random.h"
 #include "shared/render.h"
+#include "scene/coverage.glsl"
 #ifdef HAS_MEDIA
 #include "scene/scatter.glsl"
-#else
-#include "scene/coverage.glsl"
 #endif
 #ifdef HAS_AREA_LIGHTS
 #include "scene/emitting.glsl"

@@ -4,10 +4,9 @@
 #include "shared/prelude.glsl"
 #include "shared/render.h"
 #include "shared/random.h"
+#include "scene/coverage.glsl"
 #ifdef HAS_MEDIA
 #include "scene/scatter.glsl"
-#else
-#include "scene/coverage.glsl"
 #endif
 #pragma binding texel position_emitter
 #pragma binding texel power_object

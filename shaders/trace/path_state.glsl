@@ -11,7 +11,9 @@ struct PathState {
     bool alive;
     bool met_specular;
     bool met_diffuse;
+#ifdef HAS_MEDIA
     Media media;  // that the ray is in
+#endif
     float band;   // place in the spectrum, in [0, 1); negative: white light
     uint outcome;
     vec3 deposited; // sum over events of flux in - out
@@ -111,7 +113,6 @@ PathState start_path(uint index, uint slot) {
     path.alive = true;
     path.met_specular = false;
     path.met_diffuse = false;
-    path.media = Media(0u, 0u);
 #ifdef HAS_MEDIA
     path.media = Media(floatBitsToUint(emitters[emission.light].u_axis.w), floatBitsToUint(emitters[emission.light].v_axis.w));
 #endif
