@@ -22,6 +22,17 @@ nb::ndarray<nb::numpy, float> estimate(OpenDevice& open, Photons& photons, Matri
     return own_array(std::move(rgb), 3);
 }
 
+nb::ndarray<nb::numpy, float> estimate_fluence(OpenDevice& open, Photons& photons, const Scene& scene,
+                                               Matrix<const double, 3> points, const nb::dict& given,
+                                               nb::object progress) {
+    const std::vector<glm::vec4> local = localize_points(photons.map, {points.data(), points.size()});
+    const auto settings = read_settings<EstimateSettings>(given);
+    std::vector<float> rgb = PythonProgress(std::move(progress)).run([&](const Progress& asked) {
+        return read_vectors(open.workbench.estimate_fluence(photons, scene, local, settings, asked), local.size());
+    });
+    return own_array(std::move(rgb), 3);
+}
+
 nb::ndarray<nb::numpy, float, nb::ndim<3>> render(OpenDevice& open, const Scene& scene, nb::object photons,
                                                   const nb::dict& given, nb::object progress) {
     const auto settings = read_settings<RenderSettings>(given);
@@ -61,6 +72,9 @@ void bind_estimate(nb::module_& module) {
                "progress"_a = nb::none(),
                "Irradiance (n, 3) in W/m² at points with unit normals; settings as describe_settings(\"irradiance\") "
                "has them.");
+    module.def("estimate_fluence", &estimate_fluence, "device"_a, "photons"_a, "scene"_a, "points"_a, "settings"_a,
+               "progress"_a = nb::none(),
+               "Fluence (n, 3) in W/m² at points in media; settings as describe_settings(\"irradiance\") has them.");
     module.def("render_image", &render, "device"_a, "scene"_a, "photons"_a.none(), "settings"_a,
                "progress"_a = nb::none(),
                "Linear radiance (height, width, 3); settings as describe_settings(\"render\") has them, and camera.");

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "estimate/camera_frame.h"
+#include "estimate/media_photons.h"
 #include "estimate/plot_photons.h"
 #include "inspect/photon_colors.h"
 #include "inspect/voronoi.h"
@@ -220,6 +221,12 @@ gpu::Buffer Workbench::estimate_irradiance(Photons& photons, std::span<const glm
                                                 progress);
               })
         ->share();
+}
+
+gpu::Buffer Workbench::estimate_fluence(Photons& photons, const Scene& scene, std::span<const glm::vec4> points,
+                                        const EstimateSettings& given, const Progress& progress) {
+    return estimate_fluence_at(m_device, scene, take_media_photons(m_device, photons.map, progress), points,
+                               choose_k(given, photons.emission), progress);
 }
 
 Image Workbench::render_voronoi(const Scene& scene, Photons& photons, const CameraChoice& looks,

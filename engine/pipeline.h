@@ -60,6 +60,10 @@ public:
                                     std::span<const glm::vec4> normals, const EstimateSettings& settings,
                                     const Progress& progress);
 
+    // W/m² inside of media, `points` relative to the map's origin.
+    gpu::Buffer estimate_fluence(Photons& photons, const Scene& scene, std::span<const glm::vec4> points,
+                                 const EstimateSettings& settings, const Progress& progress);
+
     // `photons` may be null for direct light alone.
     Image render(const Scene& scene, Photons* photons, const CameraChoice& camera, const RenderSettings& settings,
                  const Progress& progress);

@@ -15,6 +15,7 @@ from pathlib import Path
 
 from crowded_floor import build_crowd
 from extrusion import Corner, build_bar
+from foggy_ball import build_fog
 from glass_ball import build_ball_scene
 from gltf import (
     GltfWriter,
@@ -355,6 +356,7 @@ SCENES: dict[str, Callable[[], GltfWriter]] = {
     "tack": build_tack,
     "leaf": build_leaf,
     "lamp": build_lamp,
+    "fog": build_fog,
 }
 
 # Too large to be committed.

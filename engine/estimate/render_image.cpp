@@ -9,9 +9,11 @@
 
 #include "core/settings.h"
 #include "estimate/camera_frame.h"
+#include "estimate/eye_beams.h"
 #include "estimate/plot_photons.h"
 #include "gpu/commands.h"
 #include "photons/map_columns.h"
+#include "scene/find_media.h"
 
 namespace photonloupe {
 namespace {
@@ -43,8 +45,11 @@ gpu::KernelSource name_color_kernel() {
     return {"estimate/color_irradiance.comp", 64, {}, {}};
 }
 
-gpu::KernelSource name_film_kernel() {
-    return {"estimate/accumulate_film.comp", 64, {}, {}};
+gpu::KernelSource name_film_kernel(const Scene& scene) {
+    gpu::KernelSource kernel{"estimate/accumulate_film.comp", 64, {}, {}};
+    if (scene.report.has_media)
+        kernel.defines.emplace_back("HAS_MEDIA");
+    return kernel;
 }
 
 // Which parts of light an image is made of.
@@ -65,16 +70,18 @@ struct FilmScratch {
     gpu::Buffer eye_emission;
     gpu::Buffer direct_irradiance;
     gpu::Buffer slots; // 0, 1, 2 …
+    EyeBeams beams;
 };
 
-FilmScratch allocate_scratch(gpu::Device& device, std::uint64_t samples, std::uint64_t slots) {
+FilmScratch allocate_scratch(gpu::Device& device, std::uint64_t samples, std::uint64_t slots, std::uint64_t beams) {
     const std::uint64_t bytes = samples * slots * sizeof(glm::vec4);
     std::vector<std::uint32_t> numbers(samples * slots);
     std::iota(numbers.begin(), numbers.end(), 0u);
     return {
         gpu::Buffer(device, bytes, "eye hits"),     gpu::Buffer(device, bytes, "eye hits"),
         gpu::Buffer(device, bytes, "eye hits"),     gpu::Buffer(device, samples * sizeof(glm::vec4), "eye emission"),
-        gpu::Buffer(device, bytes, "direct light"), gpu::make_buffer(device, numbers, "eye hits")};
+        gpu::Buffer(device, bytes, "direct light"), gpu::make_buffer(device, numbers, "eye hits"),
+        allocate_beams(device, samples * beams)};
 }
 
 struct Renderer {
@@ -86,6 +93,7 @@ struct Renderer {
     shared::EyeSettings eye{};
     shared::FilmSettings film_push{};
     gpu::Buffer film;
+    MediaLight media; // of the map, where there are media
 
     void trace_eye(const FilmScratch& scratch);
     void light_direct(const FilmScratch& scratch);
@@ -101,7 +109,10 @@ void Renderer::trace_eye(const FilmScratch& scratch) {
                   buffers.bind({{"hit_point", scratch.hit_point},
                                 {"hit_normal", scratch.hit_normal},
                                 {"hit_weight", scratch.hit_weight},
-                                {"eye_emission", scratch.eye_emission}}),
+                                {"eye_emission", scratch.eye_emission},
+                                {"beam_origin", scratch.beams.origin},
+                                {"beam_direction", scratch.beams.direction},
+                                {"beam_weight", scratch.beams.weight}}),
                   eye, eye.sample_count);
 }
 
@@ -109,6 +120,7 @@ void Renderer::light_direct(const FilmScratch& scratch) {
     gpu::dispatch(device, "light directly", name_light_kernel(scene),
                   buffers.bind({{"hit_point", scratch.hit_point},
                                 {"hit_normal", scratch.hit_normal},
+                                {"hit_weight", scratch.hit_weight},
                                 {"direct_irradiance", scratch.direct_irradiance}}),
                   film_push, std::uint64_t{film_push.sample_count} * film_push.slot_count);
 }
@@ -127,11 +139,13 @@ void Renderer::color(const FilmScratch& scratch, const gpu::Buffer& irradiance, 
 }
 
 void Renderer::accumulate(const FilmScratch& scratch, const gpu::Buffer& irradiance) {
-    gpu::dispatch(device, "accumulate film", name_film_kernel(),
+    gpu::dispatch(device, "accumulate film", name_film_kernel(scene),
                   {{"hit_weight", scratch.hit_weight},
                    {"direct_irradiance", scratch.direct_irradiance},
                    {"map_irradiance", irradiance},
                    {"eye_emission", scratch.eye_emission},
+                   {"beam_weight", scratch.beams.weight},
+                   {"beam_radiance", scratch.beams.radiance},
                    {"film", film}},
                   film_push, film_push.pixel_count);
 }
@@ -144,6 +158,9 @@ void Renderer::render_chunk(const FilmScratch& scratch, const Progress& progress
                                                       : gpu::Buffer(device, sizeof(glm::vec4), "no irradiance");
     if (film_push.uses_colors)
         color(scratch, irradiance, progress);
+    if (scene.report.has_media)
+        gather_beams(device, scene, buffers, media, scratch.beams,
+                     std::uint64_t{film_push.sample_count} * film_push.beam_count, progress);
     accumulate(scratch, irradiance);
 }
 
@@ -152,8 +169,10 @@ Image Renderer::run(const Progress& progress) {
     film = gpu::Buffer(device, pixels * sizeof(glm::vec4), "film");
     const std::uint64_t per_chunk =
         std::max<std::uint64_t>(1, CHUNK_SLOTS / (std::uint64_t{settings.samples} * film_push.slot_count));
-    const FilmScratch scratch =
-        allocate_scratch(device, std::min(per_chunk, pixels) * settings.samples, film_push.slot_count);
+    const FilmScratch scratch = allocate_scratch(device, std::min(per_chunk, pixels) * settings.samples,
+                                                 film_push.slot_count, film_push.beam_count);
+    if (film_push.uses_map && !film_push.uses_colors && scene.report.has_media)
+        media = prepare_media_light(device, scene, map->photons, choose_k(settings.estimate), progress);
     for (std::uint64_t first = 0; first < pixels; first += per_chunk) {
         const std::uint64_t count = std::min(per_chunk, pixels - first);
         // Whatever stage a chunk is in, what is reported is the image's own progress.
@@ -216,7 +235,9 @@ std::vector<gpu::KernelSource> list_render_kernels(const Scene& scene, Store sto
             kernels.push_back(std::move(kernel));
     if (parts.colors)
         kernels.push_back(name_color_kernel());
-    kernels.push_back(name_film_kernel());
+    if (scene.report.has_media)
+        kernels.push_back(name_beam_kernel(scene));
+    kernels.push_back(name_film_kernel(scene));
     return kernels;
 }
 
@@ -243,6 +264,11 @@ Image render_image(gpu::Device& device, const Scene& scene, const SceneBuffers& 
         if (find_kind(light) == shared::LIGHT_ENVIRONMENT && !has_image(light))
             renderer.eye.environment += light.intensity;
     renderer.eye.environment.w = std::bit_cast<float>(renderer.film_push.light_count);
+    if (report.has_media) {
+        const shared::Media media = find_media(scene, glm::dvec3(camera.position));
+        renderer.film_push.beam_count = BEAMS_PER_SAMPLE;
+        renderer.eye.media = {media.inner, media.around, BEAMS_PER_SAMPLE, 0};
+    }
     const Parts parts = choose_parts(settings.mode, map ? map->store : Store::caustic);
     renderer.film_push.uses_emission = parts.emission;
     renderer.film_push.uses_map = parts.map;

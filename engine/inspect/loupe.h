@@ -38,7 +38,7 @@ struct LoupeNumbers {
     std::array<double, 3> position{}; // world, metres
     glm::vec3 power{};                // W
     std::vector<std::pair<std::string, float>> parameters;
-    std::string interactions; // "RT": reflected, then transmitted; empty: none, or no paths
+    std::string interactions; // "RT": reflected, then transmitted (V: scattered); empty: none, or no paths
     double signature = 0;     // [SJL15] eq. 2
     double tortuosity = 0;    // [SJL15] eq. 1
     double path_length = 0;   // metres

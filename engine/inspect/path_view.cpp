@@ -10,6 +10,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "shared/trace.h"
+
 namespace photonloupe::inspect {
 namespace {
 
@@ -83,7 +85,8 @@ double encode_signature(const PathView& path) {
         const std::uint32_t interaction = read_interaction(path.vertices[i]);
         if (interaction == 0) // a map from arrays may not say
             return UNDEFINED;
-        signature += place * interaction;
+        if (interaction != shared::INTERACTION_SCATTERED) // its digit is 0
+            signature += place * interaction;
     }
     return signature;
 }
@@ -91,7 +94,7 @@ double encode_signature(const PathView& path) {
 std::string spell_signature(const PathView& path) {
     std::string letters;
     for (std::size_t i = 1; i + 1 < path.vertices.size(); ++i)
-        letters += "?RT"[std::min(read_interaction(path.vertices[i]), 3u) % 3];
+        letters += "?RTV?"[std::min(read_interaction(path.vertices[i]), 4u)];
     return letters;
 }
 

@@ -31,7 +31,7 @@ HostPaths read_paths(const PhotonMap& photons);
 // Those of some photons: photon `ids[i]` is path i. The map must have paths.
 HostPaths read_paths_of(const PhotonMap& photons, std::span<const std::uint32_t> ids);
 
-// 1 reflected, 2 transmitted, 0 at the ends.
+// 1 reflected, 2 transmitted, 3 scattered by a medium, 0 at the ends.
 std::uint32_t read_interaction(const glm::vec4& vertex);
 // From vertex i to the next.
 glm::dvec3 find_segment(const PathView& path, std::size_t i);
@@ -40,7 +40,7 @@ glm::dvec3 find_segment(const PathView& path, std::size_t i);
 double measure_length(const PathView& path);
 double measure_tortuosity(const PathView& path);   // [SJL15] eq. 1
 double encode_signature(const PathView& path);     // [SJL15] eq. 2: least digit first
-std::string spell_signature(const PathView& path); // the same as letters, R and T, first interaction first
+std::string spell_signature(const PathView& path); // the same as letters, R, T and V, first interaction first
 glm::dvec3 find_arrival(const PathView& path);     // unit vector along the last segment
 // Azimuth about y of the normal at the first specular vertex, [SJL15] figure 9 f: 0 towards -z, π/2 towards x.
 double measure_normal_angle(const PathView& path);

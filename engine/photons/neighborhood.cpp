@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include <glm/geometric.hpp>
+
 #include "photons/kernel_macros.h"
 
 namespace photonloupe {
@@ -36,7 +38,9 @@ bool find_one_normal(const KdTree& tree) {
     if (tree.count == 0)
         return false;
     const std::vector<glm::vec4> normals = tree.normal_boxes.read<glm::vec4>(2, 2);
-    return glm::vec3(normals[0]) == glm::vec3(normals[1]);
+    // Photons in media share no surface's normal, even where all came from one direction.
+    return glm::vec3(normals[0]) == glm::vec3(normals[1]) &&
+           glm::length(glm::vec3(normals[0])) > shared::SURFACE_NORMAL_LENGTH;
 }
 
 std::vector<std::string> list_defines(const Neighborhood& neighborhood, const Queries& queries) {

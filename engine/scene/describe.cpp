@@ -47,6 +47,8 @@ std::string describe_material(const shared::Material& material) {
     if (clear > 0 && material.roughness_thin.y == 0)
         text << ", ior " << material.absorption_ior.w << ", absorption " << format_vector(material.absorption_ior)
              << " 1/m";
+    if (scatters(material))
+        text << ", scattering " << format_vector(material.medium) << " 1/m, anisotropy " << material.medium.w;
     if (material.emission_transmission.x + material.emission_transmission.y + material.emission_transmission.z > 0)
         text << ", emits " << format_vector(material.emission_transmission) << " W/(m² sr)";
     if (diffuse > 0 && material.translucency.w > 0)
@@ -153,6 +155,7 @@ SceneFeatures list_features(const Scene& scene) {
                                                      {report.has_translucency, "translucency"},
                                                      {report.has_layers, "gloss and coats"},
                                                      {report.has_dispersion, "dispersion"},
+                                                     {report.has_media, "participating media"},
                                                      {report.has_emission, "emission seen by cameras"}};
     SceneFeatures result;
     for (const auto& [present, name] : features)

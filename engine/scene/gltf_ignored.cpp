@@ -14,7 +14,7 @@
 namespace photonloupe {
 namespace {
 
-constexpr std::array<std::string_view, 15> KNOWN_EXTENSIONS{"KHR_lights_punctual",
+constexpr std::array<std::string_view, 16> KNOWN_EXTENSIONS{"KHR_lights_punctual",
                                                             "KHR_materials_transmission",
                                                             "KHR_materials_volume",
                                                             "KHR_materials_ior",
@@ -28,7 +28,8 @@ constexpr std::array<std::string_view, 15> KNOWN_EXTENSIONS{"KHR_lights_punctual
                                                             "KHR_materials_diffuse_transmission",
                                                             "KHR_materials_specular",
                                                             "KHR_materials_clearcoat",
-                                                            "KHR_materials_dispersion"};
+                                                            "KHR_materials_dispersion",
+                                                            "KHR_materials_volume_scatter"};
 
 // Parts of names: what follows the vendor's letters in "KHR_materials_unlit" or "EXT_texture_webp".
 constexpr std::array<std::string_view, 6> DISPENSABLE_KINDS{"_materials_", "_texture_", "_lights_",

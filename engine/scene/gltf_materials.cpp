@@ -25,6 +25,11 @@ constexpr NumberRange IOR{1.0, 100.0};
 // 20 over the Abbe number, which glass has between 20 and 90.
 constexpr NumberRange DISPERSION{0.0, 100.0};
 
+// 1/m: a mean free path of a nanometre is shorter than any wave of light.
+constexpr NumberRange SCATTERING{0.0, 1e9};
+// The mean cosine; closer to 1 nearly nothing is scattered, and floats no longer tell by how much.
+constexpr NumberRange ANISOTROPY{-0.99, 0.99};
+
 JsonPlace find_extension(const JsonPlace& owner, const char* name) {
     return find_member(find_member(owner, "extensions"), name);
 }
@@ -50,6 +55,34 @@ void write_volume(const JsonPlace& material, Json& extensions) {
     const JsonPlace distance = find_member(volume, "attenuationDistance");
     if (distance.value)
         approved["attenuationDistance"] = read_number(distance, require_positive(distance, NumberRange{}.hi));
+}
+
+// What a medium scatters: ours, in extras, or KHR_materials_volume_scatter.
+void write_medium(const JsonPlace& material, Json& extensions) {
+    const JsonPlace khronos = find_extension(material, "KHR_materials_volume_scatter");
+    if (khronos.value)
+        extensions["KHR_materials_volume_scatter"] = {
+            {"multiscatterColor", read_numbers_or(find_member(khronos, "multiscatterColor"), {0, 0, 0}, UNIT)},
+            {"scatterAnisotropy", read_number_or(find_member(khronos, "scatterAnisotropy"), 0.0, ANISOTROPY)}};
+    const JsonPlace extras = find_member(material, "extras");
+    if (!extras.value || !extras.value->is_object()) // other programs put there what they like
+        return;
+    const JsonPlace own = find_member(extras, "photonloupe");
+    if (!own.value)
+        return;
+    const JsonPlace scattering = find_member(own, "scattering");
+    for (const auto& [name, member] : own.value->items())
+        if (name != "scattering" && name != "anisotropy")
+            refuse(own, "no medium has " + quote_text(name), "use scattering and anisotropy");
+    const std::vector<double> coefficients = read_numbers_or(scattering, {0, 0, 0}, SCATTERING);
+    const bool has_inside = extensions["KHR_materials_transmission"]["transmissionFactor"] > 0 &&
+                            extensions.contains("KHR_materials_volume") &&
+                            extensions["KHR_materials_volume"]["thicknessFactor"] > 0;
+    if (!has_inside && coefficients != std::vector<double>{0, 0, 0})
+        refuse(scattering, "light scatters only inside of what it enters",
+               "set KHR_materials_transmission's transmissionFactor and KHR_materials_volume's thicknessFactor");
+    extensions["photonloupe"] = {{"scattering", coefficients},
+                                 {"anisotropy", read_number_or(find_member(own, "anisotropy"), 0.0, ANISOTROPY)}};
 }
 
 // Members of an extension, where it is there: numbers, colors.
@@ -82,6 +115,7 @@ Json check_material(const JsonPlace& place) {
     extensions["KHR_materials_emissive_strength"]["emissiveStrength"] = read_number_or(
         find_member(find_extension(place, "KHR_materials_emissive_strength"), "emissiveStrength"), 1.0, POWER);
     write_volume(place, extensions);
+    write_medium(place, extensions);
     write_extension(place, "KHR_materials_diffuse_transmission", {{"diffuseTransmissionFactor", 0.0}},
                     {"diffuseTransmissionColorFactor"}, UNIT, extensions);
     write_extension(place, "KHR_materials_specular", {{"specularFactor", 1.0}}, {"specularColorFactor"}, POWER,

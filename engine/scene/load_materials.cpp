@@ -27,6 +27,12 @@ double read_extension_number(const tinygltf::Material& material, const char* ext
     return found->second.Get(key).GetNumberAsDouble();
 }
 
+// Albedo of one scattering whose repetition in a half space gives this color (Kulla and Conty 2017).
+double find_single_albedo(double color) {
+    const double root = 4.09712 + 4.20863 * color - std::sqrt(9.59217 + 41.6808 * color + 17.7126 * color * color);
+    return std::clamp(1 - root * root, 0.0, 1.0);
+}
+
 // Beer-Lambert coefficients in 1/m: the color is what is left after the distance.
 glm::vec3 compute_absorption(const tinygltf::Material& material, const std::string& scene_name) {
     const double distance = read_extension_number(material, "KHR_materials_volume", "attenuationDistance",
@@ -53,6 +59,26 @@ glm::vec3 read_extension_color(const tinygltf::Material& material, const char* e
     return {color.Get(0).GetNumberAsDouble(), color.Get(1).GetNumberAsDouble(), color.Get(2).GetNumberAsDouble()};
 }
 
+// A medium's scattering coefficients and anisotropy; what KHR_materials_volume_scatter scatters is taken from what
+// the volume was said to absorb. `absorption` in 1/m.
+glm::vec4 compute_medium(const tinygltf::Material& material, glm::vec3& absorption) {
+    constexpr const char* OWN = "photonloupe";
+    constexpr const char* KHRONOS = "KHR_materials_volume_scatter";
+    if (material.extensions.contains(OWN))
+        return {read_extension_color(material, OWN, "scattering"),
+                float(read_extension_number(material, OWN, "anisotropy", 0.0))};
+    if (!material.extensions.contains(KHRONOS))
+        return glm::vec4(0.0f);
+    const glm::vec3 color = read_extension_color(material, KHRONOS, "multiscatterColor");
+    const glm::vec3 extinction = absorption;
+    glm::vec4 medium(0.0f, 0.0f, 0.0f, float(read_extension_number(material, KHRONOS, "scatterAnisotropy", 0.0)));
+    for (int i = 0; i < 3; ++i) {
+        medium[i] = extinction[i] * float(find_single_albedo(color[i]));
+        absorption[i] = extinction[i] - medium[i];
+    }
+    return medium;
+}
+
 // KHR_materials_specular: reflectance straight on and at grazing angles. Without the extension none is modeled.
 glm::vec4 compute_gloss(const tinygltf::Material& material, double ior) {
     constexpr const char* EXTENSION = "KHR_materials_specular";
@@ -71,9 +97,11 @@ shared::Material convert_material(const tinygltf::Material& material, const std:
     const double thickness = read_extension_number(material, "KHR_materials_volume", "thicknessFactor", 0.0);
     const double strength = read_extension_number(material, "KHR_materials_emissive_strength", "emissiveStrength", 1.0);
     const bool is_thin = transmission > 0 && thickness == 0;
-    const bool is_solid = transmission > 0 && thickness > 0;
-    const glm::vec3 absorption = is_solid ? compute_absorption(material, scene_name) : glm::vec3(0.0f);
+    const bool has_inside = transmission > 0 && thickness > 0;
+    glm::vec3 absorption = has_inside ? compute_absorption(material, scene_name) : glm::vec3(0.0f);
     shared::Material result{};
+    if (has_inside)
+        result.medium = compute_medium(material, absorption);
     for (int i = 0; i < 3; ++i) {
         result.base_color_metallic[i] = float(pbr.baseColorFactor[std::size_t(i)]);
         result.emission_transmission[i] = float(material.emissiveFactor[std::size_t(i)] * strength);
@@ -95,6 +123,9 @@ shared::Material convert_material(const tinygltf::Material& material, const std:
                    float(read_extension_number(material, COATED, "clearcoatRoughnessFactor", 0.0)), 0.0f, 0.0f};
     result.roughness_thin = {float(pbr.roughnessFactor), is_thin ? 1.0f : 0.0f, material.doubleSided ? 1.0f : 0.0f,
                              0.0f};
+    // Nothing turns light where the index does not change, however rough the border is.
+    if (scatters(result) && result.absorption_ior.w == 1.0f && transmission == 1 && result.base_color_metallic.w == 0)
+        result.roughness_thin.x = 0.0f;
     return result;
 }
 
@@ -184,6 +215,7 @@ void report_material(const shared::Material& material, const shared::Material& l
     report.has_diffuse |= is_diffuse;
     report.has_layers |= is_glossy || is_coated;
     report.has_translucency |= is_diffuse && material.translucency.w > 0;
+    report.has_media |= scatters(material);
     report.has_dispersion |= is_clear && !is_thin && material.alpha.w > 0;
     report.has_mixed_receiver |= is_diffuse && (metallic > 0 || transmission > 0 || is_glossy || is_coated);
     report.has_alpha |= material.alpha.y != shared::ALPHA_OPAQUE;
@@ -199,6 +231,10 @@ void load_materials(const tinygltf::Model& model, const TextureRanges& ranges, S
         const tinygltf::Material& material = model.materials[i];
         scene.materials.push_back(convert_material(material, scene_name));
         scene.material_names.push_back(material.name.empty() ? "material " + std::to_string(i) : material.name);
+        if (material.extensions.contains("KHR_materials_volume_scatter") && !is_solid(scene.materials.back()))
+            scene.report.ignored.push_back("material " + quote_text(scene.material_names.back()) +
+                                           ": KHR_materials_volume_scatter is modeled only with transmission and a "
+                                           "thickness");
     }
     const bool needs_default = std::any_of(scene.objects.begin(), scene.objects.end(), [&](const SceneObject& object) {
         return object.material == model.materials.size();

@@ -51,6 +51,7 @@ struct SceneReport {
     bool has_translucency = false;
     bool has_layers = false; // gloss or coat
     bool has_dispersion = false;
+    bool has_media = false;          // that scatter light
     bool has_colored_lamps = false;  // textured unevenly
     bool has_mixed_receiver = false; // a surface that is diffuse in part
     bool has_diffuse = false;
@@ -108,6 +109,15 @@ inline bool has_image(const shared::Light& light) {
 
 inline bool has_gloss(const shared::Material& material) {
     return material.gloss.x > 0 || material.gloss.y > 0 || material.gloss.z > 0 || material.gloss.w > 0;
+}
+
+// Light bends and is weakened inside: transmissive and not thin.
+inline bool is_solid(const shared::Material& material) {
+    return material.base_color_metallic.w < 1 && material.emission_transmission.w > 0 && material.roughness_thin.y == 0;
+}
+
+inline bool scatters(const shared::Material& material) {
+    return is_solid(material) && (material.medium.x > 0 || material.medium.y > 0 || material.medium.z > 0);
 }
 
 inline bool is_two_sided(const shared::Material& material) {

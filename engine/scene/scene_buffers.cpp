@@ -93,7 +93,12 @@ std::vector<std::string> list_light_defines(const Scene& scene) {
 }
 
 std::vector<std::string> list_passing_defines(const Scene& scene) {
-    return scene.report.has_alpha ? list_paint_defines(scene) : std::vector<std::string>{};
+    std::vector<std::string> defines;
+    if (scene.report.has_alpha || scene.report.has_media)
+        defines = list_paint_defines(scene);
+    if (scene.report.has_media)
+        defines.emplace_back("HAS_MEDIA");
+    return defines;
 }
 
 std::vector<std::string> list_scene_defines(const Scene& scene) {
@@ -112,7 +117,9 @@ std::vector<std::string> list_scene_defines(const Scene& scene) {
         defines.emplace_back("HAS_LAYERS");
     if (scene.report.has_dispersion)
         defines.emplace_back("HAS_DISPERSION");
-    if (scene.report.has_absorption)
+    if (scene.report.has_media)
+        defines.emplace_back("HAS_MEDIA");
+    else if (scene.report.has_absorption)
         defines.emplace_back("HAS_ABSORPTION");
     return defines;
 }

@@ -111,6 +111,9 @@ void frame_environment(const Scene& scene, EmissionFrame& frame, bool only_specu
 } // namespace
 
 bool is_specular(const shared::Material& material) {
+    if (scatters(material) && material.absorption_ior.w == 1 && material.base_color_metallic.w == 0 &&
+        material.emission_transmission.w == 1)
+        return false; // the border of a fog
     return material.base_color_metallic.w > 0 || material.emission_transmission.w > 0 || has_gloss(material) ||
            material.coat.x > 0;
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "scene/find_media.h"
 #include "trace/projection_map.h"
 
 namespace photonloupe {
@@ -26,8 +27,8 @@ void require_contents(const Scene& scene, Store store) {
         throw SceneError(where + "scene has no emitter; add one with scene.add_light(...) or --light auto");
     if (scene.triangles.empty())
         throw SceneError(where + "scene has no triangles; add a mesh");
-    if (!scene.report.has_diffuse)
-        throw SceneError(where + "scene has no receiver; photons are stored on diffuse surfaces, add one "
+    if (!scene.report.has_diffuse && !scene.report.has_media)
+        throw SceneError(where + "scene has no receiver; photons are stored on diffuse surfaces and in media, add one "
                                  "(metallicFactor and transmissionFactor below 1)");
     const SceneReport& report = scene.report;
     if (store == Store::caustic && !report.has_mirror && !report.has_dielectric && !report.has_thin && !report.has_layers)
@@ -35,11 +36,14 @@ void require_contents(const Scene& scene, Store store) {
                                  "material, or trace with store=\"all\" or \"indirect\"");
 }
 
-shared::LightEmission describe_emission(const shared::Light& light, const EmissionFrame& frame) {
+shared::LightEmission describe_emission(const Scene& scene, const shared::Light& light, const EmissionFrame& frame) {
     shared::LightEmission emission{};
     emission.position_kind = {glm::vec3(frame.origin), light.position_kind.w};
-    emission.u_axis = glm::vec4(glm::vec3(frame.u), 0.0f);
-    emission.v_axis = glm::vec4(glm::vec3(frame.v), 0.0f);
+    // Light from afar starts outside of all that is closed.
+    const bool is_placed = frame.kind != shared::LIGHT_DIRECTIONAL && frame.kind != shared::LIGHT_ENVIRONMENT;
+    const shared::Media media = is_placed ? find_media(scene, frame.origin) : shared::Media{0, 0};
+    emission.u_axis = glm::vec4(glm::vec3(frame.u), std::bit_cast<float>(media.inner));
+    emission.v_axis = glm::vec4(glm::vec3(frame.v), std::bit_cast<float>(media.around));
     emission.axis_sides = glm::vec4(glm::vec3(frame.axis), static_cast<float>(frame.sides));
     emission.cone = {static_cast<float>(frame.inner), static_cast<float>(frame.outer), 0.0f, 0.0f};
     if (frame.kind == shared::LIGHT_ENVIRONMENT)
@@ -76,7 +80,7 @@ EmitterTable build_emitters(const Scene& scene, Store store) {
             has_map = false;
         const ProjectionMap map =
             has_map && budget > 0 ? project_light(scene, frame, is_aimed, budget) : make_full_projection();
-        shared::LightEmission emission = describe_emission(light, frame);
+        shared::LightEmission emission = describe_emission(scene, light, frame);
         append_projection(table, map, emission);
         const double measure = frame.find_measure(light) * map.find_share();
         // Of an image, photons carry all of the largest channel's radiance, and of the others what their texel has.

@@ -234,6 +234,11 @@ def estimate_irradiance(device: Device, photons: PhotonMap, points: Annotated[ND
     Irradiance (n, 3) in W/m² at points with unit normals; settings as describe_settings("irradiance") has them.
     """
 
+def estimate_fluence(device: Device, photons: PhotonMap, scene: Scene, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order='C', writable=False)], settings: dict, progress: object | None = None) -> NDArray[numpy.float32]:
+    """
+    Fluence (n, 3) in W/m² at points in media; settings as describe_settings("irradiance") has them.
+    """
+
 def render_image(device: Device, scene: Scene, photons: object | None, settings: dict, progress: object | None = None) -> Annotated[NDArray[numpy.float32], dict(shape=(None, None, None))]:
     """
     Linear radiance (height, width, 3); settings as describe_settings("render") has them, and camera.

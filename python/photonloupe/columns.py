@@ -53,7 +53,7 @@ PHOTON_COLUMNS = (
 PATH_COLUMNS = (
     Column("path_vertices", "f4", 3, of_vertices=True),
     Column("path_normals", "f4", 3, of_vertices=True),
-    Column("path_interactions", "u1", of_vertices=True, low=0, high=2),
+    Column("path_interactions", "u1", of_vertices=True, low=0, high=3),
     Column("path_objects", "i4", of_vertices=True, low=-1, high=LARGEST_OBJECT),
     Column("path_scatter", "f4", of_vertices=True, low=0.0, high=1.0),
 )
@@ -78,6 +78,8 @@ REQUIRED = ("positions", "normals", "power")
 MAX_PHOTONS = list_settings("trace")["count"].limits[1]
 # Normals written as text with four digits still pass.
 _UNIT_TOLERANCE = 1e-3
+# A photon in a medium has no surface: its normal is half the direction it came from.
+_MEDIUM_LENGTH = 0.5
 # A map without objects says so in every row.
 NO_OBJECT = -1
 
@@ -180,7 +182,10 @@ def check_columns(given: Mapping[str, ArrayLike | None]) -> Columns:
             raise ArgumentError(f"{column.name} has {len(columns[column.name])} rows, positions has {count}")
     length = np.linalg.norm(columns["normals"].astype(np.float64), axis=1)
     _refuse_rows(
-        "normals", np.abs(length - 1.0) > _UNIT_TOLERANCE, length, "is its length; normals must be unit vectors"
+        "normals",
+        (np.abs(length - 1.0) > _UNIT_TOLERANCE) & (np.abs(length - _MEDIUM_LENGTH) > _UNIT_TOLERANCE),
+        length,
+        "is its length; normals must be unit vectors, or half as long where a medium scatters",
     )
     _check_paths(columns, count)
     return columns

@@ -50,7 +50,9 @@ class PhotonColumns:
         return int(self._native.count)
 
     positions = _Column[Float3]("Where the photons are stored, (n, 3), m.")
-    normals = _Column[Float3]("Unit normal of the surface, on the side the light came from, (n, 3).")
+    normals = _Column[Float3](
+        "Unit normal of the surface, on the side the light came from; in a medium half the way back, (n, 3)."
+    )
     power = _Column[Float3]("Flux carried, (n, 3), W per channel.")
     emitter = _Column[NDArray[np.int32]]("Index of the light, (n,).")
     emitted_index = _Column[NDArray[np.uint64]](
@@ -61,7 +63,7 @@ class PhotonColumns:
     path_vertices = _Column[Float3]("Vertices of all paths, emitter and storage point included, (v, 3), m.")
     path_normals = _Column[Float3]("Unit normals at the vertices, (v, 3).")
     path_interactions = _Column[NDArray[np.uint8]](
-        "What happened at the vertices, (v,): 1 reflected, 2 transmitted, 0 at the ends."
+        "What happened at the vertices, (v,): 1 reflected, 2 transmitted, 3 scattered by a medium, 0 at the ends."
     )
     path_objects = _Column[NDArray[np.int32]]("Objects the vertices lie on, (v,); -1 at a light.")
     path_scatter = _Column[NDArray[np.float32]]("How diffuse each interaction was, (v,): 0 mirror-like to 1 diffuse.")

@@ -108,6 +108,31 @@ class PhotonStages(DevicePhotons):
         """
         return queries.estimate_irradiance(self, points, normals, progress=progress, **settings)
 
+    def fluence(self, points: ArrayLike, *, k: int | None = None, progress: ProgressLike = None) -> Float3:
+        """Estimate the fluence inside of media from the k nearest photons there (METHODS section 13).
+
+        Parameters
+        ----------
+        points
+            (n, 3), m.
+        k
+            How many photons an estimate gathers; default as for `irradiance`.
+        progress
+            True for a bar, or a callback ``(stage, fraction)`` that returns False to stop.
+
+        Returns
+        -------
+        (n, 3) float32
+            W/m² per channel, of light from all sides that the map stores; 0 without photons in media. Near the border
+            of a medium the balls reach beyond it, and the estimate is low.
+
+        Raises
+        ------
+        ArgumentError
+            If a point is not finite, k is out of range, or the map knows of no scene.
+        """
+        return queries.estimate_fluence(self, points, k, progress)
+
     def run_script(
         self,
         script: str | os.PathLike[str] | Script,

@@ -76,7 +76,8 @@ class PhotonMap(PhotonStages):
             (n + 1,) first vertex of each path in the flat columns, then their number.
         path_vertices, path_normals, path_interactions, path_objects, path_scatter
             (v, 3), (v, 3), (v,), (v,), (v,): vertices from the emitter to the storage point, both included;
-            interaction 1 reflected, 2 transmitted, 0 at the ends; scatter 0 mirror-like to 1 diffuse.
+            interaction 1 reflected, 2 transmitted, 3 scattered by a medium, 0 at the ends; scatter 0 mirror-like to 1
+            diffuse.
         emitted
             Number of photons emitted; default: the largest emitted index + 1.
         surface

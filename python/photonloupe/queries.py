@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How much light arrives: irradiance estimates asked of a photon map."""
+"""How much light arrives: estimates of irradiance and fluence asked of a photon map."""
 
 from __future__ import annotations
 
@@ -41,3 +41,17 @@ def estimate_irradiance(
     native = photons.device._native
     with follow_progress(progress) as callback:
         return np.asarray(_engine.estimate_irradiance(native, photons._native, where, unit, settings, callback))
+
+
+def estimate_fluence(
+    photons: DevicePhotons, points: ArrayLike, k: int | None, progress: ProgressLike
+) -> NDArray[np.float32]:
+    """Check the query and run it; see `PhotonMap.fluence`."""
+    settings = check_settings("irradiance", {"k": k})
+    where = check_vectors("points", points)
+    scene = photons.find_surface()
+    if scene is None:
+        raise ArgumentError("the map knows of no scene, whose media fluence is asked of; trace one")
+    native = photons.device._native
+    with follow_progress(progress) as callback:
+        return np.asarray(_engine.estimate_fluence(native, photons._native, scene._native, where, settings, callback))

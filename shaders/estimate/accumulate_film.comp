@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Averages the samples of each pixel (box filter): emission seen, direct light and the photon map's irradiance.
-// Inputs: hit_weight, direct_irradiance, map_irradiance, eye_emission. Output: film (rgb radiance, W/(m² sr)).
+// Inputs: hit_weight, direct_irradiance, map_irradiance, eye_emission; with the define HAS_MEDIA beam_weight,
+// beam_radiance: what photons in media send. Output: film (rgb radiance, W/(m² sr)).
 #include "shared/prelude.glsl"
 #include "shared/render.h"
 #include "estimate/luminance.glsl"
@@ -8,6 +9,10 @@
 #pragma binding texel direct_irradiance
 #pragma binding texel map_irradiance
 #pragma binding texel eye_emission
+#ifdef HAS_MEDIA
+#pragma binding texel beam_weight
+#pragma binding texel beam_radiance
+#endif
 #pragma binding writeonly vec4 film
 
 layout(push_constant) uniform Push { FilmSettings settings; };
@@ -19,6 +24,13 @@ void main() {
     for (uint i = 0u; i < settings.samples; ++i) {
         uint index = pixel * settings.samples + i;
         if (settings.uses_emission != 0u) sum += eye_emission_at(index).rgb;
+#ifdef HAS_MEDIA
+        for (uint beam = 0u; beam < settings.beam_count; ++beam) {
+            uint at = beam * settings.sample_count + index;
+            vec3 radiance = beam_radiance_at(at).rgb;
+            if (radiance != vec3(0.0)) sum += beam_weight_at(at).rgb * radiance;
+        }
+#endif
         for (uint slot = 0u; slot < settings.slot_count; ++slot) {
             uint at = slot * settings.sample_count + index;
             vec3 weight = hit_weight_at(at).rgb;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernels of density estimation (METHODS §2). Define KERNEL.
+// The kernels of density estimation (METHODS §2). Define KERNEL, IN_SPACE (METHODS §13: balls instead of discs).
 #include "shared/math.glsl"
 
 // r for a set that takes every photon: a little beyond the farthest, so that its weight is not lost to rounding.
@@ -7,9 +7,11 @@ const float BEYOND_FARTHEST = 1.000001;
 const float FLOAT_EPSILON = 1.1920929e-7;
 const float SMALLEST_RADIUS = 1e-15; // its square is still a normal float
 
-// Weight of a photon at squared distance s = d²/r², times π r².
+// Weight of a photon at squared distance s = d²/r², times π r²; in space times the ball's volume.
 float weigh_photon(float s) {
-#if KERNEL == 0 // KERNEL_EPANECHNIKOV
+#ifdef IN_SPACE // Epanechnikov: 15/(8π r³) (1 - s)
+    return 2.5 * max(0.0, 1.0 - s);
+#elif KERNEL == 0 // KERNEL_EPANECHNIKOV
     return 2.0 * max(0.0, 1.0 - s);
 #elif KERNEL == 1 // KERNEL_DISC; (k - 1)/k of it in estimate_irradiance
     return 1.0;
@@ -24,4 +26,8 @@ float weigh_photon(float s) {
 float find_spacing(vec3 p) { return max(max(abs(p.x), max(abs(p.y), abs(p.z))) * FLOAT_EPSILON, SMALLEST_RADIUS); }
 
 // Irradiance from the weighted flux within r. In two steps: π r² of a tiny radius would underflow.
+#ifdef IN_SPACE
+vec4 spread_flux(vec4 flux, float r) { return flux / r / r / (4.0 / 3.0 * PI * r); }
+#else
 vec4 spread_flux(vec4 flux, float r) { return flux / r / (PI * r); }
+#endif

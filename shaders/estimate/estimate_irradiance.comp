@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Irradiance in W/m² from the k nearest photons on the same surface (METHODS §2); w: what photons that each carry
-// 1 W would give. Inputs: the tree, the queries (a zero normal: no query), radii (r from the photon behind the k-th; disc:
+// 1 W would give. With IN_SPACE the fluence in a medium, from the k nearest in space. Inputs: the tree, the queries (a zero normal: no query), radii (r from the photon behind the k-th; disc:
 // from the k-th), power_object (by photon id). Outputs: irradiance, unanswered. Define KERNEL (shared/photons.h).
 #include "shared/prelude.glsl"
 #include "estimate/density.glsl"
@@ -45,6 +45,10 @@ const float SHARED_COSINE = 0.99;
 
 // The radius of the query's group; false where it has nothing to do with this query.
 bool take_radius(uint query, out vec4 radius) {
+#ifdef IN_SPACE
+    radius = radii_at(query);
+    return true;
+#else
     uint leader = query / settings.stride;
     radius = radii_at(leader);
     if (leader * settings.stride == query) return true;
@@ -54,6 +58,7 @@ bool take_radius(uint query, out vec4 radius) {
     float near2 = max(dot(d, d), settings.flatness > 0.0 ? height * height : 0.0);
     return radius.w == float(settings.rank) && near2 <= SHARED_DISTANCE * SHARED_DISTANCE * radius.x &&
            dot(normal, my_normal) > SHARED_COSINE;
+#endif
 }
 
 // r: that of a set that takes every photon lies a little beyond the farthest.

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Irradiance that lights send straight to each eye hit; every surface, glass too, blocks it (METHODS §0). Area lights by
 // one point of theirs for each sample of a pixel, spread over their area by the Sobol sequence.
-// Inputs: scene, lights, emitting, environment_map, hit_point, hit_normal. Output: direct_irradiance.
+// Inputs: scene, lights, emitting, environment_map, hit_point, hit_normal, hit_weight. Output: direct_irradiance.
 // Defines: HAS_SPOT_LIGHTS, HAS_DIRECTIONAL_LIGHTS, HAS_AREA_LIGHTS, HAS_ENVIRONMENT, HAS_ENVIRONMENT_MAP; HAS_ALPHA,
-// HAS_TEXTURES, HAS_VERTEX_COLORS.
+// HAS_TEXTURES, HAS_VERTEX_COLORS, HAS_MEDIA (fog weakens, glass blocks).
 #include "shared/prelude.glsl"
 #include "shared/random.h"
 #include "shared/render.h"
 #include "scene/coverage.glsl"
+#ifdef HAS_MEDIA
+#include "scene/scatter.glsl"
+#endif
 #ifdef HAS_AREA_LIGHTS
 #include "scene/emitting.glsl"
 #endif
@@ -17,6 +20,7 @@
 #include "estimate/light_beams.glsl"
 #pragma binding texel hit_point
 #pragma binding texel hit_normal
+#pragma binding texel hit_weight
 #pragma binding writeonly vec4 direct_irradiance
 
 layout(push_constant) uniform Push { FilmSettings settings; };
@@ -24,12 +28,22 @@ layout(push_constant) uniform Push { FilmSettings settings; };
 // A ray to an area light is stopped short of it by this share of its length.
 const float BEFORE_LIGHT = 0.9999;
 
+uint hit_medium = 0u; // that the point lies in, as Media::inner
+
+vec3 pass_straight(Ray ray, float distance) {
+#ifdef HAS_MEDIA
+    return pass_media(ray, distance, Media(hit_medium, 0u), true);
+#else
+    return vec3(pass_scene(ray, distance));
+#endif
+}
+
 vec3 light_from(Light light, vec3 point, vec3 normal) {
     Beam beam;
     if (!find_beam(light, point, beam)) return vec3(0.0);
     float cosine = dot(beam.direction, normal);
     if (cosine <= 0.0) return vec3(0.0);
-    return beam.irradiance * (cosine * pass_scene(Ray(point, beam.direction), beam.distance));
+    return beam.irradiance * (cosine * pass_straight(Ray(point, beam.direction), beam.distance));
 }
 
 #ifdef HAS_AREA_LIGHTS
@@ -42,7 +56,7 @@ vec3 light_area(Light light, vec3 point, vec3 normal, vec3 u) {
     float leaving = -dot(direction, from.normal);
     if (light.cone.w > 1.0) leaving = abs(leaving);
     if (cosine <= 0.0 || leaving <= 0.0) return vec3(0.0);
-    float share = cosine * pass_scene(Ray(point, direction), distance * BEFORE_LIGHT);
+    vec3 share = cosine * pass_straight(Ray(point, direction), distance * BEFORE_LIGHT);
     return light.intensity.rgb * from.tint * (light.cone.x * leaving / distance / distance) * share;
 }
 
@@ -60,7 +74,7 @@ vec3 light_by_image(vec3 point, vec3 normal, vec2 u) {
     float cosine = dot(from.direction, normal);
     if (cosine <= 0.0) return vec3(0.0);
     float density = BY_IMAGE * from.largest / sky.whole + (1.0 - BY_IMAGE) * cosine / PI;
-    return from.radiance * (cosine / density * pass_scene(Ray(point, from.direction), INFINITY));
+    return from.radiance * (cosine / density * pass_straight(Ray(point, from.direction), INFINITY));
 }
 #endif
 
@@ -71,7 +85,7 @@ vec3 light_around(Light light, vec3 point, vec3 normal, vec2 u) {
     if (light.cone.x > 0.0) return light_by_image(point, normal, u);
 #endif
     vec3 direction = sample_cosine(normal, u.x, u.y);
-    return PI * light.intensity.rgb * pass_scene(Ray(point, direction), INFINITY);
+    return PI * light.intensity.rgb * pass_straight(Ray(point, direction), INFINITY);
 }
 #endif
 
@@ -105,9 +119,10 @@ void main() {
     if (slot >= settings.sample_count * settings.slot_count) return;
     vec4 point = hit_point_at(slot);
     vec3 sum = vec3(0.0);
-    vec4 normal = hit_normal_at(slot);
-    if (normal.w != 0.0) normal.xyz = unpack_normal(floatBitsToUint(normal.w)); // as a texture turns it
+    float bent = hit_weight_at(slot).w; // as a texture turns the normal; 0: it does not
+    vec3 normal = bent == 0.0 ? hit_normal_at(slot).xyz : unpack_normal(floatBitsToUint(bent));
+    hit_medium = floatBitsToUint(hit_normal_at(slot).w);
     if (point.w > 0.0)
-        for (uint i = 0u; i < settings.light_count; ++i) sum += light_hit(i, point.xyz, normal.xyz, slot);
+        for (uint i = 0u; i < settings.light_count; ++i) sum += light_hit(i, point.xyz, normal, slot);
     direct_irradiance[slot] = vec4(sum, 0.0);
 }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Plots stored photons as points: each adds its flux, in units of the mean photon's, to the pixel that sees it.
-// Inputs: scene, position_emitter, power_object. Defines: HAS_ALPHA, HAS_TEXTURES, HAS_VERTEX_COLORS. Output: plot (three fixed-point sums a pixel).
+// Inputs: scene, position_emitter, power_object. Defines: HAS_ALPHA, HAS_TEXTURES, HAS_VERTEX_COLORS, HAS_MEDIA. Output: plot (three fixed-point sums a pixel).
 #include "shared/prelude.glsl"
 #include "shared/render.h"
 #include "shared/random.h"
 #include "scene/coverage.glsl"
+#ifdef HAS_MEDIA
+#include "scene/scatter.glsl"
+#endif
 #pragma binding texel position_emitter
 #pragma binding texel power_object
 #pragma binding uint plot
@@ -18,7 +21,11 @@ bool is_visible(vec3 eye, vec3 to_photon) {
     float largest = max(abs(to_photon.x), max(abs(to_photon.y), abs(to_photon.z)));
     float distance = largest * sqrt(dot(to_photon / largest, to_photon / largest));
     float limit = distance * BEFORE_SURFACE;
+#ifdef HAS_MEDIA
+    return pass_media(Ray(eye, normalize_safely(to_photon)), limit, Media(0u, 0u), false).g > 0.5; // fog hides nothing here
+#else
     return pass_scene(Ray(eye, normalize_safely(to_photon)), limit) > 0.5;
+#endif
 }
 
 // Pixel column or row of a coordinate in (-1, 1) by the axis that reaches to the border; negative: outside.

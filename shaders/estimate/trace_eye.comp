@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Follows eye paths through mirrors and glass to the diffuse surfaces they see.
-// Inputs: scene, environment_map. Outputs: per slot hit_point (xyz, w 1: used), hit_normal, hit_weight (rgb: radiance per irradiance);
+// Inputs: scene, environment_map. Outputs: per slot hit_point (xyz, w 1: used), hit_normal (w bits: the medium there), hit_weight (rgb: radiance per irradiance, w bits: the
+// normal as a texture turns it, 0 where none does);
 // per sample eye_emission (rgb: emitted radiance seen).
 // Dielectrics split into both directions while slots last, then one is chosen at random.
 // Rough surfaces show point, spot and directional lights themselves (lights).
 // Defines: HAS_DIELECTRIC, HAS_MIRROR, HAS_ROUGH (then also those of lights), HAS_ABSORPTION, HAS_TEXTURES,
-// HAS_VERTEX_COLORS, HAS_ALPHA, HAS_ENVIRONMENT_MAP, HAS_TRANSLUCENCY, HAS_LAYERS, HAS_DISPERSION.
+// HAS_VERTEX_COLORS, HAS_ALPHA, HAS_ENVIRONMENT_MAP, HAS_TRANSLUCENCY, HAS_LAYERS, HAS_DISPERSION,
+// HAS_MEDIA (then not HAS_ABSORPTION): outputs beam_origin, beam_direction, beam_weight of stretches in media (METHODS §13).
 #include "shared/prelude.glsl"
 #include "shared/random.h"
 #include "shared/render.h"
@@ -20,6 +22,11 @@
 #pragma binding writeonly vec4 hit_normal
 #pragma binding writeonly vec4 hit_weight
 #pragma binding writeonly vec4 eye_emission
+#ifdef HAS_MEDIA
+#pragma binding writeonly vec4 beam_origin
+#pragma binding writeonly vec4 beam_direction
+#pragma binding writeonly vec4 beam_weight
+#endif
 
 layout(push_constant) uniform Push { EyeSettings settings; };
 
@@ -32,12 +39,15 @@ struct Branch {
     vec3 weight;
     uint bounce;
     float band; // place in the spectrum, in [0, 1); negative: white light
+    Media media;
 };
 
 Branch waiting[LARGEST_SLOT_COUNT];
 uint waiting_count = 0u;
 uint sample_index;
 uint used_slots = 0u;
+uint used_beams = 0u;
+uint hit_medium = 0u; // Media::inner where a surface is met
 vec3 seen_emission = vec3(0.0);
 
 // Which facet of a rough surface the path meets, in [0, 1)².
@@ -72,7 +82,7 @@ Branch start_branch() {
     float x = 2.0 * (float(pixel % settings.width) + dx) / float(settings.width) - 1.0;
     float y = 1.0 - 2.0 * (float(pixel / settings.width) + dy) / float(settings.height);
     vec3 direction = normalize_safely(settings.camera.forward.xyz + x * settings.camera.right.xyz + y * settings.camera.up.xyz);
-    return Branch(Ray(settings.camera.position.xyz, direction), vec3(1.0), 0u, -1.0);
+    return Branch(Ray(settings.camera.position.xyz, direction), vec3(1.0), 0u, -1.0, Media(settings.media.x, settings.media.y));
 }
 
 uint locate_slot(uint slot) { return slot * settings.sample_count + sample_index - settings.first_sample; }
@@ -84,8 +94,8 @@ void record_hit(Surface surface, vec3 direction, float side, vec3 weight) {
     vec3 normal = side * face_smoothly(surface, direction);
     vec3 bent = side * face_arrival(surface, direction);
     hit_point[at] = vec4(leave_surface(surface, normal).origin, 1.0);
-    hit_normal[at] = vec4(normal, bent == normal ? 0.0 : uintBitsToFloat(pack_normal(bent)));
-    hit_weight[at] = vec4(weight / PI, 1.0);
+    hit_normal[at] = vec4(normal, uintBitsToFloat(hit_medium));
+    hit_weight[at] = vec4(weight / PI, bent == normal ? 0.0 : uintBitsToFloat(pack_normal(bent)));
     ++used_slots;
 }
 
@@ -146,9 +156,12 @@ void split_dielectric(inout Branch branch, Surface surface) {
     Interface face = meet_dielectric(surface, branch.ray.direction, choose_facet(branch.bounce));
     vec3 tint = face.transmitted_share * surface.material.base_color_metallic.rgb;
     Branch reflected = Branch(leave_surface(surface, face.reflected),
-                              branch.weight * (face.reflectance * face.reflected_share), branch.bounce, branch.band);
+                              branch.weight * (face.reflectance * face.reflected_share), branch.bounce, branch.band, branch.media);
     Branch transmitted = Branch(leave_surface(surface, face.transmitted),
-                                branch.weight * (1.0 - face.reflectance) * tint, branch.bounce, branch.band);
+                                branch.weight * (1.0 - face.reflectance) * tint, branch.bounce, branch.band, branch.media);
+#ifdef HAS_MEDIA
+    cross_boundary(transmitted.media, surface, branch.ray.direction);
+#endif
     bool can_split = used_slots + waiting_count + 2u <= settings.slot_count && face.reflectance > 0.0 && face.reflectance < 1.0;
     if (can_split) {
         ++reflected.bounce;
@@ -205,9 +218,34 @@ void follow_specular(inout Branch branch, Surface surface, LobeShares shares, fl
 #endif
 }
 
+#ifdef HAS_MEDIA
+uint locate_beam(uint beam) { return beam * settings.sample_count + sample_index - settings.first_sample; }
+
+// The way to a surface: what lies in a medium is looked through, and kept to see what photons send along it. Of stretches
+// beyond those there is room for only what they take away is seen.
+void look_through(inout Branch branch, Surface surface, float distance) {
+    arrive(branch.media, surface, branch.ray.direction);
+    if (branch.media.inner == 0u) return;
+    Medium medium = load_medium(branch.media.inner);
+    if (scatters(medium) && used_beams < settings.media.z) {
+        uint at = locate_beam(used_beams);
+        beam_origin[at] = vec4(branch.ray.origin, distance);
+        beam_direction[at] = vec4(branch.ray.direction, uintBitsToFloat(branch.media.inner));
+        // Radiance goes with the square of the index, which the way in and out of glass need not say.
+        float camera_ior = settings.media.x == 0u ? 1.0 : load_medium(settings.media.x).ior;
+        beam_weight[at] = vec4(branch.weight * square(camera_ior / medium.ior), 0.0);
+        ++used_beams;
+    }
+    branch.weight *= transmit(medium.extinction, distance);
+}
+#endif
+
 // One surface of a branch; false when the branch ends here.
 bool follow_surface(inout Branch branch, Surface surface, float distance) {
-#ifdef HAS_ABSORPTION
+#ifdef HAS_MEDIA
+    look_through(branch, surface, distance);
+    hit_medium = branch.media.inner;
+#elif defined(HAS_ABSORPTION)
     branch.weight *= transmit_interior(surface, branch.ray.direction, distance);
 #endif
     if (surface.material.roughness_thin.z > 0.0 || dot(branch.ray.direction, surface.geometric_normal) < 0.0)
@@ -261,5 +299,8 @@ void main() {
         hit_normal[locate_slot(slot)] = vec4(0.0);
         hit_weight[locate_slot(slot)] = vec4(0.0);
     }
+#ifdef HAS_MEDIA
+    for (uint beam = used_beams; beam < settings.media.z; ++beam) beam_origin[locate_beam(beam)] = vec4(0.0);
+#endif
     eye_emission[gl_GlobalInvocationID.x] = vec4(seen_emission, 0.0);
 }

@@ -2,7 +2,7 @@
 // What a surface does to light: Lambert, mirror with Schlick reflectance, dielectric with exact Fresnel, both smooth or
 // rough. Sides are decided by the geometric normal, directions by the shading normal (METHODS §0).
 // Over them a gloss and a coat, each a layer that reflects what its Fresnel says and lets the rest through.
-// Defines: HAS_ROUGH, HAS_LAYERS, HAS_DISPERSION.
+// Defines: HAS_ROUGH, HAS_LAYERS, HAS_DISPERSION, HAS_MEDIA.
 #include "scene/coverage.glsl"
 #ifdef HAS_ROUGH
 #include "scene/microfacet.glsl"
@@ -222,6 +222,9 @@ Interface meet_smooth(Surface surface, vec3 direction) {
         face.reflectance = reflect_thin(cosine, surface.material.absorption_ior.w);
         return face;
     }
+#ifdef HAS_MEDIA
+    if (surface.material.absorption_ior.w == 1.0) return face; // nothing happens at the border of a fog
+#endif
     face.reflectance = reflect_fresnel(cosine, ratio, beyond);
     face.transmitted = refract_direction(direction, n, cosine, ratio, beyond);
     bool enters = arrives_in_front(surface, direction);
@@ -314,6 +317,10 @@ Interface meet_dielectric(Surface surface, vec3 direction, vec2 u) {
 #endif
     return meet_smooth(surface, direction);
 }
+
+#ifdef HAS_MEDIA
+#include "scene/medium.glsl"
+#endif
 
 // Transmittance of the segment that ended here, if it ran inside this surface's dielectric (Beer-Lambert).
 vec3 transmit_interior(Surface surface, vec3 direction, float distance) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The surface at a hit: position with its error bound, normals, material; and rays that leave it safely.
-// Inputs: shading_normals (3 texels a triangle), materials (8 texels each), with textures and vertex colors what paints them.
+// Inputs: shading_normals (3 texels a triangle), materials (MATERIAL_TEXELS each), with textures and vertex colors what paints them.
 // Defines: HAS_TEXTURES, HAS_VERTEX_COLORS, HAS_ALPHA, HAS_TRANSLUCENCY, HAS_LAYERS, HAS_DISPERSION.
 #include "shared/math.glsl"
 #include "scene/intersect.glsl"
@@ -15,13 +15,14 @@ struct Surface {
     vec3 smooth_normal;     // unit, as modelled: where photons are stored and looked for
     vec3 shading_normal;    // unit, the same or as a texture turns it: where light goes
     uint object;
+    uint triangle;
     Material material;
 };
 
 Material load_material(uint index) {
     uint first = MATERIAL_TEXELS * index;
     Material material = Material(materials_at(first), materials_at(first + 1u), materials_at(first + 2u), materials_at(first + 3u),
-                                 vec4(1.0, ALPHA_OPAQUE, 0.0, 0.0), vec4(0.0), vec4(0.0), vec4(0.0));
+                                 vec4(1.0, ALPHA_OPAQUE, 0.0, 0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
 #if defined(HAS_ALPHA) || defined(HAS_DISPERSION)
     material.alpha = materials_at(first + 4u);
 #endif
@@ -57,6 +58,7 @@ Surface load_surface(Hit hit) {
     if (surface.smooth_normal == vec3(0.0)) surface.smooth_normal = surface.geometric_normal;
     surface.shading_normal = surface.smooth_normal;
     surface.object = floatBitsToUint(v0.w);
+    surface.triangle = hit.triangle;
     uint material = floatBitsToUint(v1.w);
     surface.material = load_material(material);
 #ifdef HAS_VERTEX_COLORS

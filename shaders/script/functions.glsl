@@ -124,38 +124,13 @@ float script_atan2(float y, float x) {
     return is_nan(x) || is_nan(y) ? NAN : angle;
 }
 
-// A positive finite number as m · 2^e with m in [√½, √2).
-float split_exponent(float x, out float e) {
-    bool is_denormal = x < 1.17549435e-38;
-    uint bits = floatBitsToUint(is_denormal ? x * 16777216.0 : x);
-    int exponent = int(bits >> 23u) - 126 - (is_denormal ? 24 : 0);
-    float m = uintBitsToFloat((bits & 0x7fffffu) | 0x3f000000u);
-    bool is_low = m < 0.70710678118654752440;
-    e = float(is_low ? exponent - 1 : exponent);
-    return is_low ? 2.0 * m : m;
-}
-
 float special_log(float x, float result) {
     result = x == INFINITY ? INFINITY : result;
     result = x == 0.0 ? -INFINITY : result;
     return x >= 0.0 ? result : NAN;
 }
 
-// Natural logarithm (Cephes logf): error below 2 ulp.
-float script_log(float x) {
-    float e;
-    float m = split_exponent(x, e);
-    precise float r = m - 1.0;
-    precise float z = r * r;
-    precise float tail = (((7.0376836292e-2 * r - 1.1514610310e-1) * r + 1.1676998740e-1) * r - 1.2420140846e-1) * r;
-    tail = (((tail + 1.4249322787e-1) * r - 1.6668057665e-1) * r + 2.0000714765e-1) * r - 2.4999993993e-1;
-    tail = (tail * r + 3.3333331174e-1) * r * z;
-    tail = tail + e * -2.12194440e-4;
-    tail = tail - 0.5 * z;
-    precise float result = r + tail;
-    result = result + e * 0.693359375;
-    return special_log(x, result);
-}
+float script_log(float x) { return special_log(x, log_exact(x)); }
 
 float script_exp(float x) { return exp_exact(x); }
 

@@ -7,6 +7,12 @@
 
 SHARED_BEGIN
 
+// A photon in a medium has no surface: its normal is the direction it came from, this long, so that no surface's
+// estimate takes it for its own (SAME_SURFACE_COSINE is larger) and it is told from others.
+const float MEDIUM_NORMAL_LENGTH = 0.5f;
+// Normals shorter than this are such.
+const float SURFACE_NORMAL_LENGTH = 0.75f;
+
 // The kd-tree is complete: node 1 is the root, node i has children 2i and 2i + 1. Photons stand in tiles of TREE_TILE;
 // of T tiles node j of level l (heap index 2^l + j) owns floor(T j / 2^l) … floor(T (j + 1) / 2^l) - 1, so that a tile
 // lies within one leaf. Leaves hold 8 to 16 photons.

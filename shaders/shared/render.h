@@ -26,6 +26,15 @@ struct EyeSettings {
     uint slot_count;    // diffuse hits one sample may have
     uint max_bounces;
     vec4 environment;   // rgb radiance beyond everything that no image says, w the number of lights as bits
+    uvec4 media;        // xy: the camera's Media; z: stretches of one sample in media that are kept; w unused
+};
+
+// Stretches of eye paths in media meet the photons there.
+struct BeamSettings {
+    uint first;        // of this dispatch
+    uint count;
+    uint photon_count;
+    uint leaf_level;
 };
 
 struct FilmSettings {
@@ -40,7 +49,7 @@ struct FilmSettings {
     uint uses_emission;
     uint uses_colors;   // false color: of a surface's color only its luminance counts
     uint seed;
-    uint pad0;
+    uint beam_count;    // of each sample, in media
 };
 
 struct PlotSettings {

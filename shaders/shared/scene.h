@@ -34,9 +34,16 @@ struct Material {
     vec4 translucency;          // rgb colour of diffuse light that passes, w its share of all diffuse light
     vec4 gloss;                 // of a lobe over Lambert: rgb reflectance straight on, w at grazing angles; black: none
     vec4 coat;                  // x share that is coated, y the coat's roughness, zw unused
+    vec4 medium;                // of the interior: rgb scattering coefficient in 1/m, w anisotropy: mean cosine of the angle
 };
 
-const uint MATERIAL_TEXELS = 8u;
+const uint MATERIAL_TEXELS = 9u;
+
+// Media a ray may be in at once: the innermost and the one around it.
+struct Media {
+    uint inner;  // a triangle of its boundary + 1; 0: none
+    uint around;
+};
 
 const float ALPHA_OPAQUE = 0.0f;
 const float ALPHA_MASK = 1.0f;  // there or not

@@ -26,6 +26,7 @@ const uint OUTCOME_UNFINISHED = 4u; // the workgroup's loop turns did not suffic
 const uint INTERACTION_END = 0u;
 const uint INTERACTION_REFLECTED = 1u;
 const uint INTERACTION_TRANSMITTED = 2u;
+const uint INTERACTION_SCATTERED = 3u; // by a medium
 
 // Object index of vertices that lie on no surface (a point light).
 const uint NO_OBJECT = 0xffffffu;
@@ -56,8 +57,8 @@ struct LightEmission {
     vec4 flux_cumulative; // rgb: flux in W carried by a photon of this light times the number emitted; w: cumulative probability
     uvec4 grid;         // rows, columns, first entry in `cells`, number of marked cells
     uvec4 first_row;    // x: first entry in `cell_rows`, y: the light's index in the scene; area: z: first triangle, w: their number
-    vec4 u_axis;        // xyz: EmissionFrame's u, axis and v
-    vec4 v_axis;
+    vec4 u_axis;        // xyz: EmissionFrame's u, axis and v; w bits: the medium that light starts in (Media::inner)
+    vec4 v_axis;        // w bits: the one around it
     vec4 axis_sides;    // area: w sides that shine
     vec4 cone;          // spot: xy 1 - cos of the inner and the outer angle; environment: radius of the discs of starts, their distance, z 1: an image says it
 };

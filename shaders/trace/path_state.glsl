@@ -11,6 +11,9 @@ struct PathState {
     bool alive;
     bool met_specular;
     bool met_diffuse;
+#ifdef HAS_MEDIA
+    Media media;  // that the ray is in
+#endif
     float band;   // place in the spectrum, in [0, 1); negative: white light
     uint outcome;
     vec3 deposited; // sum over events of flux in - out
@@ -45,6 +48,26 @@ bool survive(inout PathState path, vec3 factor, uint random) {
     return false;
 }
 
+#ifdef HAS_MEDIA
+void weigh_flux(inout PathState path, vec3 weight) {
+    vec3 leaving = path.flux * weight;
+    path.deposited += path.flux - leaving;
+    path.flux = leaving;
+}
+
+// Russian roulette that keeps the sum of the channels, as flights in media do.
+bool survive_in_sum(inout PathState path, vec3 factor, uint random) {
+    vec3 leaving = path.flux * factor;
+    float chance = (leaving.r + leaving.g + leaving.b) / max(path.flux.r + path.flux.g + path.flux.b, 1e-37);
+    if (to_unit_float(random) < chance) {
+        weigh_flux(path, factor / chance);
+        return true;
+    }
+    end_path(path, OUTCOME_ABSORBED);
+    return false;
+}
+#endif
+
 bool is_stored(PathState path) {
 #if STORE_MODE == 0 // STORE_CAUSTIC
     return path.met_specular && !path.met_diffuse;
@@ -64,8 +87,8 @@ void write_vertex(inout PathState path, vec3 position, uint interaction, uint ob
     ++path.recorded;
 }
 
-void record_vertex(inout PathState path, Surface surface, vec3 normal, uint interaction, float scatter, vec3 arriving,
-                   bool stores) {
+void record_vertex(inout PathState path, vec3 position, uint object, vec3 normal, uint interaction, float scatter,
+                   vec3 arriving, bool stores) {
     ++path.vertex_count;
     if (stores) {
         ++path.photon_count;
@@ -75,7 +98,7 @@ void record_vertex(inout PathState path, Surface surface, vec3 normal, uint inte
     if (!stores) return;
 #endif
     // Scatter: 0 mirror-like … 1 diffuse; roughness and mixtures lie between.
-    write_vertex(path, surface.position, interaction, surface.object, normal, scatter, arriving, stores);
+    write_vertex(path, position, interaction, object, normal, scatter, arriving, stores);
 }
 
 PathState start_path(uint index, uint slot) {
@@ -90,6 +113,9 @@ PathState start_path(uint index, uint slot) {
     path.alive = true;
     path.met_specular = false;
     path.met_diffuse = false;
+#ifdef HAS_MEDIA
+    path.media = Media(floatBitsToUint(emitters[emission.light].u_axis.w), floatBitsToUint(emitters[emission.light].v_axis.w));
+#endif
     path.band = -1.0;
     path.outcome = OUTCOME_ABSORBED;
     path.deposited = vec3(0.0);

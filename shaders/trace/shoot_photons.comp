@@ -5,10 +5,14 @@
 // Defines: STORE_MODE, EMISSION, RECORD_PATHS (keep specular vertices too), HAS_DIELECTRIC, HAS_MIRROR,
 // HAS_ROUGH, HAS_TEXTURES, HAS_VERTEX_COLORS, HAS_ALPHA, HAS_ABSORPTION, HAS_SEVERAL_LIGHTS, HAS_SPOT_LIGHTS,
 // HAS_DIRECTIONAL_LIGHTS, HAS_AREA_LIGHTS (then also emitting), HAS_ENVIRONMENT, HAS_ENVIRONMENT_MAP (then also environment_map),
-// HAS_COLORED_LAMPS, HAS_COLORED_EMISSION (either of the two), HAS_TRANSLUCENCY, HAS_LAYERS, HAS_DISPERSION.
+// HAS_COLORED_LAMPS, HAS_COLORED_EMISSION (either of the two), HAS_TRANSLUCENCY, HAS_LAYERS, HAS_DISPERSION,
+// HAS_MEDIA (then not HAS_ABSORPTION).
 #include "shared/prelude.glsl"
 #include "shared/random.h"
 #include "shared/trace.h"
+#ifdef HAS_MEDIA
+#include "shared/photons.h"
+#endif
 #include "scene/scatter.glsl"
 #pragma binding readonly LightEmission emitters
 #pragma binding readonly uint cells
@@ -94,16 +98,58 @@ uint scatter_dielectric(inout PathState path, Surface surface, uvec4 random) {
         surface.material.absorption_ior.w = find_index(surface.material, path.band);
     }
 #endif
-    Interface face = meet_dielectric(surface, path.ray.direction, choose_facet(path));
+    vec3 arrival = path.ray.direction;
+    Interface face = meet_dielectric(surface, arrival, choose_facet(path));
+#ifdef HAS_MEDIA
+    path.met_specular = path.met_specular || !is_matched(surface.material);
+#else
     path.met_specular = true;
+#endif
     if (to_unit_float(random.z) < face.reflectance) {
         if (survive(path, vec3(face.reflected_share), random.y)) path.ray = leave_surface(surface, face.reflected);
         return INTERACTION_REFLECTED;
     }
     if (survive(path, face.transmitted_share * surface.material.base_color_metallic.rgb, random.y))
         path.ray = leave_surface(surface, face.transmitted);
+#ifdef HAS_MEDIA
+    cross_boundary(path.media, surface, arrival);
+#endif
     return INTERACTION_TRANSMITTED;
 }
+
+#ifdef HAS_MEDIA
+// Light is stopped in the medium: it is stored if the set asks for it, and goes on in a new direction or is absorbed.
+void scatter_in_medium(inout PathState path, Medium medium, Flight flight, uvec4 random) {
+    vec3 arrival = path.ray.direction;
+    vec3 position = path.ray.origin + flight.distance * arrival;
+    weigh_flux(path, weigh_collision(medium, flight));
+    vec3 arriving = path.flux;
+    bool stores = is_stored(path);
+    if (STORE_MODE == STORE_CAUSTIC) {
+        end_path(path, OUTCOME_RECEIVED); // as behind a diffuse surface
+    } else if (path.bounce == settings.max_bounces) {
+        end_path(path, OUTCOME_TRUNCATED);
+    } else if (survive_in_sum(path, medium.albedo, random_bits(settings.seed, path.index, path.bounce, 6u))) {
+        path.ray = Ray(position, sample_phase(medium.anisotropy, arrival, random.z, random.w));
+        path.met_diffuse = true;
+    }
+    record_vertex(path, position, medium.object, -MEDIUM_NORMAL_LENGTH * arrival, INTERACTION_SCATTERED, 1.0, arriving, stores);
+}
+
+// The way to the surface; false where the path does not get there.
+bool pass_medium(inout PathState path, Surface surface, float distance) {
+    arrive(path.media, surface, path.ray.direction);
+    if (path.media.inner == 0u) return true;
+    Medium medium = load_medium(path.media.inner);
+    if (!scatters(medium))
+        return survive(path, transmit(medium.extinction, distance), random_bits(settings.seed, path.index, path.bounce, 1u));
+    uvec4 random = random_words(settings.seed, path.index, path.bounce, 5u);
+    Flight flight = fly(medium, path.flux, random.x, random.y);
+    if (flight.distance < distance) scatter_in_medium(path, medium, flight, random);
+    else weigh_flux(path, weigh_passage(medium, flight, distance));
+    return !(flight.distance < distance);
+}
+#endif
 
 // Stores the deposit if the set asks for it, then chooses a lobe and goes on.
 void meet_surface(inout PathState path, Surface surface, float distance) {
@@ -141,14 +187,21 @@ void meet_surface(inout PathState path, Surface surface, float distance) {
 #ifdef HAS_ROUGH
     scatter += (1.0 - diffuse) * min(surface.material.roughness_thin.x, 1.0);
 #endif
-    record_vertex(path, surface, face_smoothly(surface, arrival), interaction, scatter, arriving, stores);
+    record_vertex(path, surface.position, surface.object, face_smoothly(surface, arrival), interaction, scatter, arriving, stores);
 }
 
 // One segment of the path: to the next surface, or away.
 void follow_segment(inout PathState path) {
     Hit hit = meet_scene(path.ray, choose_coverage(path));
-    if (hit.t == INFINITY) end_path(path, OUTCOME_ESCAPED);
-    else meet_surface(path, load_surface(hit), hit.t);
+    if (hit.t == INFINITY) {
+        end_path(path, OUTCOME_ESCAPED);
+    } else {
+        Surface surface = load_surface(hit);
+#ifdef HAS_MEDIA
+        if (pass_medium(path, surface, hit.t))
+#endif
+        meet_surface(path, surface, hit.t);
+    }
     ++path.bounce;
     if (!path.alive) finish_path(path);
 }

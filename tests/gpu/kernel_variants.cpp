@@ -17,7 +17,8 @@ const std::vector<std::string> EMISSIONS{"EMISSION 0", "EMISSION 1"};
 const std::vector<std::string> PATHS{"", "RECORD_PATHS"};
 const std::vector<std::string> MIRROR{"", "HAS_MIRROR"};
 const std::vector<std::string> DIELECTRIC{"", "HAS_DIELECTRIC"};
-const std::vector<std::string> ABSORPTION{"", "HAS_ABSORPTION"};
+const std::vector<std::string> ABSORPTION{"", "HAS_ABSORPTION", "HAS_MEDIA"};
+const std::vector<std::string> MEDIA{"", "HAS_MEDIA"};
 const std::vector<std::string> PAINT{"", "HAS_TEXTURES", "HAS_VERTEX_COLORS",
                                      "HAS_TEXTURES\n#define HAS_VERTEX_COLORS\n#define HAS_ALPHA"},
     MATTER{"", "HAS_ROUGH",
@@ -60,11 +61,13 @@ const std::vector<std::string> DESCRIPTORS{"DESCRIPTOR 1", "DESCRIPTOR 2", "DESC
 
 // Kernels that are not named here take no defines.
 const std::map<std::string, Factors> FACTORS{
-    {"estimate/estimate_irradiance.comp", {KERNELS, {SURFACE[2]}, {"", "ONE_NORMAL"}, {TIES[1]}, SINGLY}},
-    {"estimate/light_direct.comp", {SPOT, DIRECTIONAL, AREA, ENVIRONMENT, PAINT}},
+    {"estimate/accumulate_film.comp", {MEDIA}},
+    {"estimate/estimate_irradiance.comp", {KERNELS, {SURFACE[2], "IN_SPACE"}, {"", "ONE_NORMAL"}, {TIES[1]}, SINGLY}},
+    {"estimate/gather_beams.comp", {{"HAS_MEDIA"}}},
+    {"estimate/light_direct.comp", {SPOT, DIRECTIONAL, AREA, ENVIRONMENT, PAINT, MEDIA}},
     {"estimate/trace_eye.comp", {MIRROR, DIELECTRIC, ABSORPTION, MATTER, OTHER_LIGHTS}},
-    {"estimate/plot_photons.comp", {PAINT}},
-    {"inspect/see_surfaces.comp", {PAINT}},
+    {"estimate/plot_photons.comp", {PAINT, MEDIA}},
+    {"inspect/see_surfaces.comp", {PAINT, MEDIA}},
     {"inspect/count_crossings.comp", {{"", "RAGGED"}}},
     {"photons/choose_brackets.comp", {RANGES}},
     {"photons/count_lefts.comp", {RANGES}},

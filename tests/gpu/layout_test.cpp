@@ -35,6 +35,7 @@ const std::map<std::string, HostStruct> HOST_STRUCTS{
     STRUCT(PixelSettings),   STRUCT(SurfaceSettings),  STRUCT(CellSettings),      STRUCT(SplatSettings),
     STRUCT(ResolveSettings), STRUCT(TreeBracket),      STRUCT(EmittingTriangle),  STRUCT(EnvironmentHeader),
     STRUCT(Texture),         STRUCT(MaterialPaint),    STRUCT(CornerCoordinates), STRUCT(CornerColors),
+    STRUCT(BeamSettings),
 };
 
 std::vector<std::uint32_t> compile(const KernelVariant& variant, std::uint64_t by_address = 0) {

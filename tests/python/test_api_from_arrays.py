@@ -71,7 +71,7 @@ def test_offsets_of_another_length_are_refused() -> None:
         build(path_offsets=make_columns(PHOTONS)["path_offsets"][:-1])
 
 
-@pytest.mark.parametrize(("name", "value"), [("path_interactions", 3), ("emitter", -1), ("object", -2)])
+@pytest.mark.parametrize(("name", "value"), [("path_interactions", 4), ("emitter", -1), ("object", -2)])
 def test_value_out_of_range_is_refused_by_row(name: str, value: int) -> None:
     column = make_columns(PHOTONS)[name].astype(np.int64)
     column[4] = value

@@ -32,7 +32,7 @@ class LoupeNumbers:
     parameters
         By name.
     interactions, signature
-        ``"RT"``: reflected, then transmitted; the same as a number, [SJL15] eq. 2.
+        ``"RT"``: reflected, then transmitted; V: scattered by a medium; the same as a number, [SJL15] eq. 2.
     tortuosity, path_length
         [SJL15] eq. 1; m.
     one_sidedness, drift, pressure
@@ -53,7 +53,10 @@ class LoupeNumbers:
 
 @dataclass(frozen=True)
 class PathLine:
-    """One photon's path: vertices (m, 3), m, and interactions (m,), 1 reflected, 2 transmitted, 0 at the ends."""
+    """One photon's path: vertices (m, 3), m, and interactions (m,).
+
+    Of these 1 is reflected, 2 transmitted, 3 scattered by a medium, 0 stands at the ends.
+    """
 
     photon: int
     vertices: Floats
