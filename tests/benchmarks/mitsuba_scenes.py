@@ -59,7 +59,9 @@ class GltfReader:
         sampler = self.document["samplers"][texture["sampler"]]
         view = self.document["bufferViews"][self.document["images"][texture["source"]]["bufferView"]]
         data = self.buffer[view["byteOffset"] : view["byteOffset"] + view["byteLength"]]
-        bitmap = mi.Bitmap(mi.MemoryStream(data)).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False)
+        file = self.folder / f"image_{index}"
+        file.write_bytes(data)
+        bitmap = mi.Bitmap(str(file)).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False)
         pixels = np.array(bitmap) * np.asarray(scale, dtype=np.float32)
         return {
             "type": "bitmap",
@@ -145,12 +147,20 @@ class GltfReader:
             glow = self.make_glow(material)
             looks = {"bsdf": self.make_material(material), **self.make_interior(material)}
             looks |= {"emitter": glow} if glow else {}
-            scene[name] = {"type": "ply", "filename": self.write_mesh(name, primitive["attributes"], faces, place), **looks}
+            scene[name] = {
+                "type": "ply",
+                "filename": self.write_mesh(name, primitive["attributes"], faces, place),
+                **looks,
+            }
             if glow and material.get("doubleSided"):
                 path = self.write_mesh(f"{name}_back", primitive["attributes"], faces[:, ::-1], place)
                 smaller = mi.ScalarTransform4f().scale(1.0 - _SHEET_GAP)
                 scene[f"{name}_back"] = {
-                    "type": "ply", "filename": path, "flip_normals": True, "to_world": smaller, **looks,
+                    "type": "ply",
+                    "filename": path,
+                    "flip_normals": True,
+                    "to_world": smaller,
+                    **looks,
                 }
 
     def add_light(self, scene: dict[str, Any], node: dict[str, Any], place: Doubles) -> None:
@@ -189,7 +199,7 @@ class GltfReader:
 
 
 def read_scene(path: Path, folder: Path) -> dict[str, Any]:
-    """Shapes and lights of a file of ours as a dictionary for `mi.load_dict`; raises ModelError where one has no model."""
+    """Shapes and lights of a file of ours as a dictionary for `mi.load_dict`; ModelError where one has no model."""
     reader = GltfReader(path, folder)
     scene: dict[str, Any] = {"type": "scene"}
     for node in reader.document["nodes"]:
