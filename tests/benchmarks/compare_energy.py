@@ -19,7 +19,7 @@ from gltf import GltfWriter
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "energy.md"
 PASSES = 4
-COUNT = 1 << 22  # photons emitted in a pass, on either side
+COUNT = 1 << 21  # photons emitted in a pass, on either side
 LIMIT = 0.002  # largest difference, of Mitsuba's flux
 LONGEST_PATH = 64
 
