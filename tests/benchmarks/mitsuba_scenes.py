@@ -101,11 +101,13 @@ class GltfReader:
         volume = material.get("extensions", {}).get("KHR_materials_volume", {})
         if "attenuationDistance" not in volume:
             return {}
-        extinction = (-np.log(volume["attenuationColor"]) / volume["attenuationDistance"]).tolist()
+        extinction = -np.log(volume["attenuationColor"]) / volume["attenuationDistance"]
+        largest = float(extinction.max())  # colors of Mitsuba's media end at 1
         return {
             "interior": {
                 "type": "homogeneous",
-                "sigma_t": {"type": "rgb", "value": extinction},
+                "sigma_t": {"type": "rgb", "value": (extinction / max(largest, 1e-30)).tolist()},
+                "scale": largest,
                 "albedo": {"type": "rgb", "value": 0.0},
             }
         }
