@@ -123,10 +123,13 @@ class GltfReader:
             return {"type": "area", "radiance": self.make_texture(material["emissiveTexture"]["index"], radiance)}
         return {"type": "area", "radiance": {"type": "rgb", "value": radiance.tolist()}}
 
-    def write_mesh(self, name: str, attributes: dict[str, int], faces: NDArray[Any], place: Doubles) -> str:
-        """PLY of a primitive, moved to its place in the world."""
+    def write_mesh(
+        self, name: str, attributes: dict[str, int], faces: NDArray[Any], place: Doubles, side: float = 1.0
+    ) -> str:
+        """PLY of a primitive, moved to its place in the world; `side` -1: facing the other way."""
+        faces = faces if side > 0.0 else faces[:, ::-1]
         points = self.read_accessor(attributes["POSITION"]) @ place[:3, :3].T + place[:3, 3]
-        normals = self.read_accessor(attributes["NORMAL"]) @ place[:3, :3].T
+        normals = side * self.read_accessor(attributes["NORMAL"]) @ place[:3, :3].T
         has_texture = "TEXCOORD_0" in attributes
         mesh = mi.Mesh(name, len(points), len(faces), has_vertex_normals=True, has_vertex_texcoords=has_texture)
         parameters = mi.traverse(mesh)
@@ -155,12 +158,11 @@ class GltfReader:
                 **looks,
             }
             if glow and material.get("doubleSided"):
-                path = self.write_mesh(f"{name}_back", primitive["attributes"], faces[:, ::-1], place)
+                path = self.write_mesh(f"{name}_back", primitive["attributes"], faces, place, side=-1.0)
                 smaller = mi.ScalarTransform4f().scale(1.0 - _SHEET_GAP)
                 scene[f"{name}_back"] = {
                     "type": "ply",
                     "filename": path,
-                    "flip_normals": True,
                     "to_world": smaller,
                     **looks,
                 }
