@@ -16,7 +16,7 @@ import photonloupe as pl
 
 WIDTH = 128
 BOUNCES = 40
-EXPOSURE = 0.35
+EXPOSURE = 0.23
 # Rows and columns of the picture.
 REGIONS = {"shade": (10, 40, 40, 90), "table": (100, 125, 5, 30), "wall": (20, 45, 100, 125), "bowl": (82, 100, 45, 85)}
 
