@@ -148,9 +148,7 @@ def build_leaf() -> GltfWriter:
     """Glass marble on a translucent leaf, lit from behind."""
     scene = LEAF
     writer = GltfWriter(scene.name)
-    marble = move_mesh(
-        build_ball(scene.marble_radius, scene.marble_rows, scene.marble_segments), scene.marble_place
-    )
+    marble = move_mesh(build_ball(scene.marble_radius, scene.marble_rows, scene.marble_segments), scene.marble_place)
     writer.add_mesh("marble", marble, make_glass("glass", scene.ior, 2.0 * scene.marble_radius))
     blade, coordinates = build_blade(scene)
     texture = writer.add_texture(encode_png(paint_veins(scene)), wrapS=33071, wrapT=33071)  # clamped to the edge

@@ -45,6 +45,7 @@ class LampScene:
     tint_distance: float  # m
     table_half: float  # m
     table_reflectance: float
+    wall_z: float  # m, of its front
     window_half: float  # m, what the camera `top` sees of the table
     shade_segments: int = 192
     bowl_segments: int = 150
@@ -89,7 +90,8 @@ LAMP = LampScene(
     roughness=0.18,
     tint=(0.5, 0.82, 0.86),
     tint_distance=0.012,
-    table_half=0.6,
+    table_half=1.5,
+    wall_z=-0.6,
     table_reflectance=0.7,
     window_half=0.16,
 )
@@ -159,8 +161,8 @@ def build_lamp() -> GltfWriter:
     bulb = move_mesh(build_ball(scene.bulb_radius, 24, 32), (0.0, scene.bulb_height, 0.0))
     writer.add_mesh("bulb", bulb, make_bulb(scene))
     writer.add_mesh("table", build_quad(scene.table_half), make_diffuse("table", scene.table_reflectance))
-    half = scene.table_half
-    wall = build_box((-half, -0.02, -half - 0.02), (half, 1.2 * half, -half))
+    half, z = scene.table_half, scene.wall_z
+    wall = build_box((-half, -0.02, z - 0.02), (half, 0.7, z))
     writer.add_mesh("wall", wall, make_diffuse("wall", scene.table_reflectance))
     writer.add_camera("view", (0.3, 0.3, 0.52), (0.0, 0.13, 0.0), 0.62)
     yfov = 2.0 * math.atan(scene.window_half / TOP_CAMERA_HEIGHT)

@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 from energy_scenes import EnergyCase, add_receivers, list_cases
 from find_llvm import find_llvm
-from gltf import GltfWriter
 from numpy.typing import NDArray
 
 import photonloupe as pl
+from gltf import GltfWriter
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "energy.md"
 PASSES = 4
@@ -35,7 +35,6 @@ class EnergyRow:
     peer_error: float
     ours: float
     our_error: float
-    note: str
 
     @property
     def difference(self) -> float:
@@ -88,14 +87,14 @@ def compare_case(case: EnergyCase) -> list[EnergyRow]:
         folder = Path(name)
         writer = GltfWriter("case")
         case.build(writer)
-        add_receivers(writer)
+        add_receivers(writer, case.receivers)
         writer.write(folder)
         path, image = folder / "case.gltf", write_sky(folder) if case.has_image else None
         sky: dict[str, Any] | None = make_environment(case.environment, image) if case.environment else None
         ours = measure_ours(path, case, image)
         peer = measure_flux(path, list(case.receivers), PASSES, COUNT, sky)
     return [
-        EnergyRow(f"{case.name}; on the {name}", *summarize(peer[name]), *summarize(ours[name]), case.note)
+        EnergyRow(f"{case.name}; on the {name}", *summarize(peer[name]), *summarize(ours[name]))
         for name in case.receivers
     ]
 

@@ -59,7 +59,9 @@ class GltfReader:
         sampler = self.document["samplers"][texture["sampler"]]
         view = self.document["bufferViews"][self.document["images"][texture["source"]]["bufferView"]]
         data = self.buffer[view["byteOffset"] : view["byteOffset"] + view["byteLength"]]
-        bitmap = mi.Bitmap(mi.MemoryStream(data)).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False)
+        file = self.folder / f"image_{index}"
+        file.write_bytes(data)
+        bitmap = mi.Bitmap(str(file)).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False)
         pixels = np.array(bitmap) * np.asarray(scale, dtype=np.float32)
         return {
             "type": "bitmap",
@@ -99,11 +101,13 @@ class GltfReader:
         volume = material.get("extensions", {}).get("KHR_materials_volume", {})
         if "attenuationDistance" not in volume:
             return {}
-        extinction = (-np.log(volume["attenuationColor"]) / volume["attenuationDistance"]).tolist()
+        extinction = -np.log(volume["attenuationColor"]) / volume["attenuationDistance"]
+        largest = float(extinction.max())  # colors of Mitsuba's media end at 1
         return {
             "interior": {
                 "type": "homogeneous",
-                "sigma_t": {"type": "rgb", "value": extinction},
+                "sigma_t": {"type": "rgb", "value": (extinction / max(largest, 1e-30)).tolist()},
+                "scale": largest,
                 "albedo": {"type": "rgb", "value": 0.0},
             }
         }
@@ -119,10 +123,13 @@ class GltfReader:
             return {"type": "area", "radiance": self.make_texture(material["emissiveTexture"]["index"], radiance)}
         return {"type": "area", "radiance": {"type": "rgb", "value": radiance.tolist()}}
 
-    def write_mesh(self, name: str, attributes: dict[str, int], faces: NDArray[Any], place: Doubles) -> str:
-        """PLY of a primitive, moved to its place in the world."""
+    def write_mesh(
+        self, name: str, attributes: dict[str, int], faces: NDArray[Any], place: Doubles, side: float = 1.0
+    ) -> str:
+        """PLY of a primitive, moved to its place in the world; `side` -1: facing the other way."""
+        faces = faces if side > 0.0 else faces[:, ::-1]
         points = self.read_accessor(attributes["POSITION"]) @ place[:3, :3].T + place[:3, 3]
-        normals = self.read_accessor(attributes["NORMAL"]) @ place[:3, :3].T
+        normals = side * self.read_accessor(attributes["NORMAL"]) @ place[:3, :3].T
         has_texture = "TEXCOORD_0" in attributes
         mesh = mi.Mesh(name, len(points), len(faces), has_vertex_normals=True, has_vertex_texcoords=has_texture)
         parameters = mi.traverse(mesh)
@@ -145,12 +152,19 @@ class GltfReader:
             glow = self.make_glow(material)
             looks = {"bsdf": self.make_material(material), **self.make_interior(material)}
             looks |= {"emitter": glow} if glow else {}
-            scene[name] = {"type": "ply", "filename": self.write_mesh(name, primitive["attributes"], faces, place), **looks}
+            scene[name] = {
+                "type": "ply",
+                "filename": self.write_mesh(name, primitive["attributes"], faces, place),
+                **looks,
+            }
             if glow and material.get("doubleSided"):
-                path = self.write_mesh(f"{name}_back", primitive["attributes"], faces[:, ::-1], place)
+                path = self.write_mesh(f"{name}_back", primitive["attributes"], faces, place, side=-1.0)
                 smaller = mi.ScalarTransform4f().scale(1.0 - _SHEET_GAP)
                 scene[f"{name}_back"] = {
-                    "type": "ply", "filename": path, "flip_normals": True, "to_world": smaller, **looks,
+                    "type": "ply",
+                    "filename": path,
+                    "to_world": smaller,
+                    **looks,
                 }
 
     def add_light(self, scene: dict[str, Any], node: dict[str, Any], place: Doubles) -> None:
@@ -189,7 +203,7 @@ class GltfReader:
 
 
 def read_scene(path: Path, folder: Path) -> dict[str, Any]:
-    """Shapes and lights of a file of ours as a dictionary for `mi.load_dict`; raises ModelError where one has no model."""
+    """Shapes and lights of a file of ours as a dictionary for `mi.load_dict`; ModelError where one has no model."""
     reader = GltfReader(path, folder)
     scene: dict[str, Any] = {"type": "scene"}
     for node in reader.document["nodes"]:

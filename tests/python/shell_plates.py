@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A small plate that throws light on a black ball around it: where light goes, against densities integrated over bins."""
+"""A small plate that throws light on a black ball around it: directions held against densities integrated over bins."""
 
 from __future__ import annotations
 

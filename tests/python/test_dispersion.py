@@ -100,9 +100,7 @@ def trace_wedge(folder: Path, glass: Glass, emission: str = "random") -> pl.Phot
         writer.add_mesh("shell", Mesh(ball.positions, -ball.normals, ball.indices[:, ::-1]), make_diffuse("black", 0.0))
         writer.add_spot_light("beam", tuple(start), tuple(target), 1.0, 1e-4, 1e-4)
 
-    return pl.trace_photons(
-        pl.load_scene(write_without_floor(folder, change)), emitted=COUNT, emission=emission
-    )
+    return pl.trace_photons(pl.load_scene(write_without_floor(folder, change)), emitted=COUNT, emission=emission)
 
 
 def find_straight(photons: pl.PhotonMap) -> tuple[Doubles, Doubles]:
