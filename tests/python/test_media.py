@@ -15,6 +15,7 @@ from conftest import write_scene
 from gltf import GltfWriter, Mesh, build_box, build_quad, make_diffuse, make_glass
 from lit_scenes import build_ball, build_panel, make_lamp
 from media_twin import Doubles, find_phase, find_point_fluence, make_medium, pass_slab
+from photonloupe.paths import parse_signature
 from statistics_checks import Z_LIMIT, compute_chi_square_p
 
 P_LIMIT = 1e-4
@@ -377,3 +378,7 @@ def test_khronos_volume_scatter_is_read(tmp_path: Path) -> None:
     assert told is not None
     np.testing.assert_allclose([float(number) for number in told[1].split(",")], [2.0, 0.0, 1.8235], atol=1e-3)
     assert "anisotropy 0.25" in text
+
+
+def test_a_digit_0_in_a_signature_stands_for_scattered() -> None:
+    assert parse_signature(3) == parse_signature("31")
