@@ -41,6 +41,13 @@ gpu::KernelSource name_light_kernel(const Scene& scene) {
     return kernel;
 }
 
+gpu::KernelSource name_beam_light_kernel(const Scene& scene) {
+    gpu::KernelSource kernel{"estimate/light_beams.comp", 64, list_scene_defines(scene), {}};
+    for (std::string& define : list_light_defines(scene))
+        kernel.defines.push_back(std::move(define));
+    return kernel;
+}
+
 gpu::KernelSource name_color_kernel() {
     return {"estimate/color_irradiance.comp", 64, {}, {}};
 }
@@ -97,6 +104,7 @@ struct Renderer {
 
     void trace_eye(const FilmScratch& scratch);
     void light_direct(const FilmScratch& scratch);
+    void light_media(const FilmScratch& scratch, const Progress& progress);
     gpu::Buffer gather(const FilmScratch& scratch, const gpu::Buffer& power, const Progress& progress);
     void color(const FilmScratch& scratch, const gpu::Buffer& irradiance, const Progress& progress);
     void accumulate(const FilmScratch& scratch, const gpu::Buffer& irradiance);
@@ -123,6 +131,17 @@ void Renderer::light_direct(const FilmScratch& scratch) {
                                 {"hit_weight", scratch.hit_weight},
                                 {"direct_irradiance", scratch.direct_irradiance}}),
                   film_push, std::uint64_t{film_push.sample_count} * film_push.slot_count);
+}
+
+void Renderer::light_media(const FilmScratch& scratch, const Progress& progress) {
+    const std::uint64_t count = std::uint64_t{film_push.sample_count} * film_push.beam_count;
+    gather_beams(device, scene, buffers, media, scratch.beams, count, progress);
+    if (film_push.uses_direct)
+        gpu::dispatch(device, "light media", name_beam_light_kernel(scene),
+                      buffers.bind({{"beam_origin", scratch.beams.origin},
+                                    {"beam_direction", scratch.beams.direction},
+                                    {"beam_radiance", scratch.beams.radiance}}),
+                      film_push, count);
 }
 
 gpu::Buffer Renderer::gather(const FilmScratch& scratch, const gpu::Buffer& power, const Progress& progress) {
@@ -159,8 +178,7 @@ void Renderer::render_chunk(const FilmScratch& scratch, const Progress& progress
     if (film_push.uses_colors)
         color(scratch, irradiance, progress);
     if (scene.report.has_media)
-        gather_beams(device, scene, buffers, media, scratch.beams,
-                     std::uint64_t{film_push.sample_count} * film_push.beam_count, progress);
+        light_media(scratch, progress);
     accumulate(scratch, irradiance);
 }
 
@@ -237,6 +255,8 @@ std::vector<gpu::KernelSource> list_render_kernels(const Scene& scene, Store sto
         kernels.push_back(name_color_kernel());
     if (scene.report.has_media)
         kernels.push_back(name_beam_kernel(scene));
+    if (scene.report.has_media && parts.direct)
+        kernels.push_back(name_beam_light_kernel(scene));
     kernels.push_back(name_film_kernel(scene));
     return kernels;
 }

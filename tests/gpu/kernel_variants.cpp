@@ -64,6 +64,7 @@ const std::map<std::string, Factors> FACTORS{
     {"estimate/accumulate_film.comp", {MEDIA}},
     {"estimate/estimate_irradiance.comp", {KERNELS, {SURFACE[2], "IN_SPACE"}, {"", "ONE_NORMAL"}, {TIES[1]}, SINGLY}},
     {"estimate/gather_beams.comp", {{"HAS_MEDIA"}}},
+    {"estimate/light_beams.comp", {{"HAS_MEDIA"}, OTHER_LIGHTS, PAINT}},
     {"estimate/light_direct.comp", {SPOT, DIRECTIONAL, AREA, ENVIRONMENT, PAINT, MEDIA}},
     {"estimate/trace_eye.comp", {MIRROR, DIELECTRIC, ABSORPTION, MATTER, OTHER_LIGHTS}},
     {"estimate/plot_photons.comp", {PAINT, MEDIA}},

@@ -14,8 +14,8 @@ Doubles = NDArray[np.float64]
 
 
 def make_medium(
-    scattering: tuple[float, float, float],
-    absorption: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    scattering: tuple[float, ...],
+    absorption: tuple[float, ...] = (0.0, 0.0, 0.0),
     anisotropy: float = 0.0,
     ior: float = 1.0,
 ) -> dict[str, Any]:

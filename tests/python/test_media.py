@@ -13,8 +13,9 @@ import pytest
 import photonloupe as pl
 from conftest import write_scene
 from gltf import GltfWriter, Mesh, build_box, build_quad, make_diffuse, make_glass
-from lit_scenes import build_ball
+from lit_scenes import build_ball, build_panel, make_lamp
 from media_twin import Doubles, find_phase, find_point_fluence, make_medium, pass_slab
+from photonloupe.paths import parse_signature
 from statistics_checks import Z_LIMIT, compute_chi_square_p
 
 P_LIMIT = 1e-4
@@ -228,6 +229,31 @@ def test_a_picture_shows_light_scattered_once(tmp_path: Path, eye: tuple[float, 
     assert shown == pytest.approx(look_through_fog(np.array(eye), target, g, 1e-3), rel=0.02)
 
 
+LAMPS = {
+    "sun": lambda writer: writer.add_directional_light("lamp", (0.0, -1.0, 0.0), 1.0),
+    "point": lambda writer: writer.add_point_light("lamp", (0.3, 1.4, 0.2), 1.0),
+    "inside": lambda writer: writer.add_point_light("lamp", (0.1, 0.5, 0.2), 1.0),
+    "panel": lambda writer: writer.add_mesh("lamp", build_panel(0.2, 1.3), make_lamp(5.0)),
+}
+
+
+@pytest.mark.parametrize("lamp", LAMPS)
+def test_direct_light_is_what_photons_show_of_the_first_scattering(tmp_path: Path, lamp: str) -> None:
+    """Nearly nothing is scattered twice, so that an `all` map shows the same."""
+
+    def change(writer: GltfWriter) -> None:
+        fog = make_medium((1e-3, 2e-3, 5e-4), (1.0, 0.5, 0.3), 0.4)
+        writer.add_mesh("fog", build_box((-1.0, 0.0, -1.0), (1.0, 1.0, 1.0)), fog)
+        LAMPS[lamp](writer)
+
+    scene = load(tmp_path, change)
+    camera = pl.Camera(position=(0.2, 0.6, 4.0), target=(0.0, 0.45, 0.0), yfov=0.2)
+    size = {"camera": camera, "width": 16, "height": 16}
+    photons = np.asarray(pl.render(scene, trace_all(scene), samples=16, mode="caustic", k=20, **size), dtype=np.float64)
+    direct = np.asarray(pl.render(scene, samples=64, mode="direct", **size), dtype=np.float64)
+    np.testing.assert_allclose(direct.mean(axis=(0, 1)), photons.mean(axis=(0, 1)), rtol=0.03)
+
+
 def test_a_medium_of_another_index_shows_less_than_it_holds(tmp_path: Path) -> None:
     """Radiance is divided by n² on leaving; sun and eye straight above, light scattered once."""
     ior, albedo, depth = 1.5, 1e-3, 3.0
@@ -352,3 +378,7 @@ def test_khronos_volume_scatter_is_read(tmp_path: Path) -> None:
     assert told is not None
     np.testing.assert_allclose([float(number) for number in told[1].split(",")], [2.0, 0.0, 1.8235], atol=1e-3)
     assert "anisotropy 0.25" in text
+
+
+def test_a_digit_0_in_a_signature_stands_for_scattered() -> None:
+    assert parse_signature(3) == parse_signature("31")
