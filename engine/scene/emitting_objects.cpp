@@ -15,7 +15,8 @@
 namespace photonloupe {
 namespace {
 
-// Textured lamps' triangles are split until a part is about this many texels wide, or there are this many parts of all lamps.
+// Textured lamps' triangles are split until a part is about this many texels wide, or there are this many parts of all
+// lamps.
 constexpr double TEXELS_OF_A_PART = 2.0;
 constexpr std::size_t MOST_PARTS = 1u << 16;
 constexpr int MOST_LEVELS = 8;
@@ -47,7 +48,8 @@ class Lamp {
 public:
     // `most_parts`: what textured triangles may be split into.
     Lamp(const Scene& scene, const std::vector<std::uint32_t>& triangles, std::size_t most_parts)
-        : m_most_parts(most_parts), m_is_large(triangles.size() > most_parts), m_scene(scene), m_material_index(find_material(scene.triangles[triangles.front()])),
+        : m_most_parts(most_parts), m_is_large(triangles.size() > most_parts), m_scene(scene),
+          m_material_index(find_material(scene.triangles[triangles.front()])),
           m_material(scene.materials[m_material_index]),
           m_texture(scene.paints.empty() ? 0.0f : scene.paints[m_material_index].colors.w),
           m_alpha_texture(scene.paints.empty() ? 0.0f : scene.paints[m_material_index].colors.x) {

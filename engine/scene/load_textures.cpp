@@ -190,7 +190,8 @@ TextureRange decode_range(const Scene& scene, const shared::Texture& texture, co
 
 } // namespace
 
-TextureRanges load_textures(const std::vector<MaterialTextures>& materials, const std::vector<ImageFile>& files, Scene& scene) {
+TextureRanges load_textures(const std::vector<MaterialTextures>& materials, const std::vector<ImageFile>& files,
+                            Scene& scene) {
     const std::vector<RgbaImage> images = decode_images(files, scene);
     TextureRanges ranges(1);
     if (count_texels(images) == 0)

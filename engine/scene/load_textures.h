@@ -18,7 +18,8 @@ using TextureRanges = std::vector<TextureRange>;
 
 // Fills the scene's atlas and textures, and for each material its paint. Images that can't be decoded are listed among
 // what is ignored, and their surfaces keep their factors; too many texels are halved, with a note.
-TextureRanges load_textures(const std::vector<MaterialTextures>& materials, const std::vector<ImageFile>& images, Scene& scene);
+TextureRanges load_textures(const std::vector<MaterialTextures>& materials, const std::vector<ImageFile>& images,
+                            Scene& scene);
 
 // A texture at a point of a triangle, by the weights of its corners; as the kernels sample it.
 glm::dvec4 sample_texture(const Scene& scene, float number, std::uint32_t triangle, const glm::dvec3& weights);

@@ -31,7 +31,8 @@ void require_contents(const Scene& scene, Store store) {
         throw SceneError(where + "scene has no receiver; photons are stored on diffuse surfaces and in media, add one "
                                  "(metallicFactor and transmissionFactor below 1)");
     const SceneReport& report = scene.report;
-    if (store == Store::caustic && !report.has_mirror && !report.has_dielectric && !report.has_thin && !report.has_layers)
+    if (store == Store::caustic && !report.has_mirror && !report.has_dielectric && !report.has_thin &&
+        !report.has_layers)
         throw SceneError(where + "scene has no specular surface, so it has no caustic; add a metal or glass "
                                  "material, or trace with store=\"all\" or \"indirect\"");
 }

@@ -177,7 +177,7 @@ def test_metal_and_transmission_follow_their_textures(tmp_path: Path) -> None:
         }
         pane["pbrMetallicRoughness"]["baseColorFactor"] = [0.0, 0.0, 0.0, 1.0]
         quad = build_quad(1.0)
-        beside = Mesh(quad.positions + [3.0, 0.0, 0.0], quad.normals, quad.indices)
+        beside = Mesh(quad.positions + np.array([3.0, 0.0, 0.0]), quad.normals, quad.indices)
         writer.add_mesh("pane", beside, pane, coordinates=[COORDINATES])
         writer.add_directional_light("sun", (0.0, -1.0, 0.0), 1.0)
 

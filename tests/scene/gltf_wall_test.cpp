@@ -151,9 +151,9 @@ TEST(gltf_wall, features_that_are_not_modeled_are_listed_by_name) {
     document["scenes"] = Json::parse(R"([{"nodes":[0]},{"nodes":[]}])");
     document["scene"] = 0;
     const Scene scene = load_document(document);
-    for (const char* feature :
-         {"animations: everything is at rest", "KHR_materials_sheen", "/materials/0/normalTexture: its texture has no PNG",
-          "points and lines", "orthographic cameras", "range of lights", "only the default scene 0 of 2"})
+    for (const char* feature : {"animations: everything is at rest", "KHR_materials_sheen",
+                                "/materials/0/normalTexture: its texture has no PNG", "points and lines",
+                                "orthographic cameras", "range of lights", "only the default scene 0 of 2"})
         EXPECT_TRUE(contains(scene.report.ignored, feature)) << feature;
 }
 
