@@ -9,7 +9,6 @@ from __future__ import annotations
 import pytest
 from corpus import list_files, run_file
 
-
 # Of black plastic, which nothing of what lights it is thrown back from to so small a picture.
 BLACK = "microsoft-mixed-reality/right.glb"
 
