@@ -118,3 +118,12 @@ def test_the_time_comes_first(tmp_path: Path) -> None:
         scene.restore([{"add": "time", "time": 1.0}])
     with pytest.raises(pl.ArgumentError, match="time"):
         pl.load_scene(scene.path, time=float("nan"))
+
+
+def test_a_file_that_changed_meanwhile_is_another_scene(tmp_path: Path) -> None:
+    scene = pl.load_scene(write_animated(tmp_path, "translation", PLACES))
+    before = pl.load_scene(scene.path, time=2.0)
+    write_animated(tmp_path, "translation", PLACES + [0.0, 7.0, 0.0])
+    scene.restore([{"add": "time", "time": 2.0}])
+    np.testing.assert_allclose(find_middle(scene), PLACES[1] + [0.0, 7.0, 0.0], atol=1e-6)
+    assert scene.hash != before.hash

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 import photonloupe as pl
-from gltf import GltfWriter, Mesh, build_quad, make_diffuse, make_glass, make_mirror
+from gltf import GltfWriter, Mesh, build_box, build_quad, make_diffuse, make_glass, make_mirror
 from lit_scenes import Doubles, build_panel, make_lamp, render_below
 
 Codes = NDArray[np.uint8]
@@ -448,3 +448,43 @@ def test_a_gloss_makes_caustics(tmp_path: Path, extension: dict[str, Any]) -> No
 
     photons = pl.trace_photons(pl.load_scene(write(tmp_path, change)), 2000)
     assert (photons.object == 1).any()
+
+
+def test_light_from_all_around_stays_out_of_closed_rooms(tmp_path: Path) -> None:
+    """Also where something that is not there stands within, and far things make light start late."""
+
+    def change(writer: GltfWriter) -> None:
+        writer.add_mesh("mirror", build_quad(0.3), make_mirror("mirror", (1.0, 1.0, 1.0)))
+        ghost = make_diffuse("ghost", 0.5)
+        ghost["alphaMode"] = "MASK"
+        ghost["pbrMetallicRoughness"]["baseColorFactor"][3] = 0.1
+        writer.add_mesh("ghost", build_box((-1.5, -1.5, -1.5), (1.5, 1.5, 1.5)), ghost)
+        writer.add_mesh("room", build_box((-2.0, -2.0, -2.0), (2.0, 2.0, 2.0)), make_diffuse("room", 0.5))
+        writer.add_mesh("far", build_box((9e3, 0.0, 0.0), (9.001e3, 1.0, 1.0)), make_diffuse("far", 0.5))
+
+    scene = pl.load_scene(write(tmp_path, change))
+    scene.add_light("environment", intensity=1.0)
+    assert len(pl.trace_photons(scene, emitted=1 << 12, store="caustic")) == 0
+
+
+def test_a_gloss_takes_no_light_from_what_glass_reflects(tmp_path: Path) -> None:
+    """A white wall in a slab's front face; behind it a black wall, which a gloss can only brighten."""
+
+    def look(name: str, *, is_glossy: bool) -> float:
+        def change(writer: GltfWriter) -> None:
+            writer.add_mesh("slab", build_box((-5.0, -0.2, -5.0), (5.0, 0.0, 5.0)), make_glass("slab", 1.5, 0.2))
+            black = make_diffuse("black", 0.0)
+            if is_glossy:
+                black["extensions"] = {"KHR_materials_specular": {}}
+            writer.add_mesh("below", build_quad(9.0, -1.0), black)
+            ceiling = build_quad(30.0, 4.0)
+            down = Mesh(ceiling.positions, -ceiling.normals, ceiling.indices[:, ::-1])
+            writer.add_mesh("ceiling", down, make_diffuse("white", 1.0))
+            writer.add_point_light("lamp", (15.0, 2.0, 0.0), 10.0)
+
+        scene = pl.load_scene(write(tmp_path / name, change))
+        camera = pl.Camera(position=(-3.0, 0.8, 0.0), target=(0.0, 0.0, 0.0), yfov=0.02)
+        image = pl.render(scene, mode="direct", camera=camera, width=16, height=16, samples=64)
+        return float(np.asarray(image, dtype=np.float64).mean())
+
+    assert look("glossy", is_glossy=True) > 0.98 * look("plain", is_glossy=False)
