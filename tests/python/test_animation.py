@@ -123,7 +123,8 @@ def test_the_time_comes_first(tmp_path: Path) -> None:
 def test_a_file_that_changed_meanwhile_is_another_scene(tmp_path: Path) -> None:
     scene = pl.load_scene(write_animated(tmp_path, "translation", PLACES))
     before = pl.load_scene(scene.path, time=2.0)
-    write_animated(tmp_path, "translation", PLACES + [0.0, 7.0, 0.0])
+    lifted = PLACES + np.array([0.0, 7.0, 0.0])
+    write_animated(tmp_path, "translation", lifted)
     scene.restore([{"add": "time", "time": 2.0}])
-    np.testing.assert_allclose(find_middle(scene), PLACES[1] + [0.0, 7.0, 0.0], atol=1e-6)
+    np.testing.assert_allclose(find_middle(scene), lifted[1], atol=1e-6)
     assert scene.hash != before.hash
