@@ -107,6 +107,10 @@ std::string locate_byte(std::string_view text, std::size_t byte) {
 
 } // namespace
 
+JsonPlace find_extension(const JsonPlace& owner, const char* name) {
+    return find_member(find_member(owner, "extensions"), name);
+}
+
 std::vector<unsigned char> read_file_bytes(const std::filesystem::path& path, std::optional<std::uint64_t> byte_count,
                                            std::uint64_t limit, const JsonPlace& place) {
     std::error_code error;

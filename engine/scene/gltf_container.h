@@ -23,6 +23,9 @@ struct GltfContainer {
     std::optional<std::span<const unsigned char>> binary_chunk; // GLB's buffer 0
 };
 
+// A member of `extensions`; without a value where there is none.
+JsonPlace find_extension(const JsonPlace& owner, const char* name);
+
 // The first `byte_count` bytes of a regular file, or all of them (at most `limit`) when no count is given.
 std::vector<unsigned char> read_file_bytes(const std::filesystem::path& path, std::optional<std::uint64_t> byte_count,
                                            std::uint64_t limit, const JsonPlace& place);

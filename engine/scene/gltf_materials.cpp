@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "scene/gltf_container.h"
 #include "scene/limits.h"
 
 namespace photonloupe {
@@ -29,10 +30,6 @@ constexpr NumberRange DISPERSION{0.0, 100.0};
 constexpr NumberRange SCATTERING{0.0, 1e9};
 // The mean cosine; closer to 1 nearly nothing is scattered, and floats no longer tell by how much.
 constexpr NumberRange ANISOTROPY{-0.99, 0.99};
-
-JsonPlace find_extension(const JsonPlace& owner, const char* name) {
-    return find_member(find_member(owner, "extensions"), name);
-}
 
 NumberRange require_positive(const JsonPlace& place, double hi) {
     if (place.value && place.value->is_number() && place.value->get<double>() <= 0)

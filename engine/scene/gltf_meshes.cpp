@@ -23,8 +23,7 @@ struct Attribute {
     std::uint32_t fewest_components;
     std::uint32_t most_components;
 };
-constexpr std::array<Attribute, 9> OPTIONAL_ATTRIBUTES{{{"NORMAL", 3, 3},
-                                                        {"TANGENT", 4, 4},
+constexpr std::array<Attribute, 8> OPTIONAL_ATTRIBUTES{{{"NORMAL", 3, 3},
                                                         {"TEXCOORD_0", 2, 2},
                                                         {"TEXCOORD_1", 2, 2},
                                                         {"COLOR_0", 3, 4},
@@ -33,7 +32,7 @@ constexpr std::array<Attribute, 9> OPTIONAL_ATTRIBUTES{{{"NORMAL", 3, 3},
                                                         {"JOINTS_1", 4, 4},
                                                         {"WEIGHTS_1", 4, 4}}};
 // What morph targets move.
-constexpr std::array<Attribute, 3> MORPHED_ATTRIBUTES{{{"POSITION", 3, 3}, {"NORMAL", 3, 3}, {"TANGENT", 3, 3}}};
+constexpr std::array<Attribute, 2> MORPHED_ATTRIBUTES{{{"POSITION", 3, 3}, {"NORMAL", 3, 3}}};
 constexpr Attribute POSITION{"POSITION", 3, 3};
 
 // Looks at each accessor's bytes once, however many primitives share it.

@@ -37,10 +37,6 @@ constexpr std::array<SlotPlace, TEXTURE_SLOT_COUNT> SLOTS{
      {"KHR_materials_clearcoat", "clearcoatTexture"},
      {"KHR_materials_clearcoat", "clearcoatRoughnessTexture"}}};
 
-JsonPlace find_extension(const JsonPlace& owner, const char* name) {
-    return find_member(find_member(owner, "extensions"), name);
-}
-
 JsonPlace find_slot(const JsonPlace& material, const SlotPlace& slot) {
     const std::string_view owner(slot.owner);
     if (owner.empty())
@@ -123,26 +119,11 @@ std::optional<TextureUse> read_reference(const JsonPlace& root, const JsonPlace&
     return use;
 }
 
-// The bytes of a view; the wall's other part has checked views that accessors use, not those of images.
-std::span<const unsigned char> find_view(const JsonPlace& root, const JsonPlace& image, const BufferBytes& buffers) {
-    const JsonPlace views = find_member(root, "bufferViews");
-    const auto index =
-        read_index(require_member(image, "bufferView"), count_elements(views, MAX_ENTRIES), "buffer view");
-    const JsonPlace view = get_element(views, *index);
-    const auto buffer = *read_index(require_member(view, "buffer"), buffers.size(), "buffer");
-    const std::uint64_t offset = read_unsigned_or(find_member(view, "byteOffset"), MAX_BUFFER_BYTES, 0);
-    const std::uint64_t length = read_unsigned(require_member(view, "byteLength"), MAX_BUFFER_BYTES);
-    if (offset + length > buffers[buffer].size())
-        refuse(view, "it ends beyond its buffer", "repair the file or export it again");
-    return std::span(buffers[buffer]).subspan(offset, length);
-}
-
-std::vector<unsigned char> read_image(const JsonPlace& root, const JsonPlace& place,
-                                      const std::filesystem::path& folder, const BufferBytes& buffers,
-                                      std::string& name) {
+std::vector<unsigned char> read_image(const JsonPlace& place, const std::filesystem::path& folder,
+                                      AccessorTable& accessors, std::string& name) {
     const JsonPlace uri_place = find_member(place, "uri");
     if (!uri_place.value) {
-        const std::span<const unsigned char> bytes = find_view(root, place, buffers);
+        const std::span<const unsigned char> bytes = accessors.check_view_bytes(require_member(place, "bufferView"));
         return {bytes.begin(), bytes.end()};
     }
     const std::string uri = read_string(uri_place);
@@ -163,8 +144,8 @@ std::vector<MaterialTextures> check_textures(const JsonPlace& root, std::vector<
     return textures;
 }
 
-std::vector<ImageFile> read_images(const JsonPlace& root, const std::filesystem::path& folder,
-                                   const BufferBytes& buffers, const std::vector<MaterialTextures>& textures) {
+std::vector<ImageFile> read_images(const JsonPlace& root, const std::filesystem::path& folder, AccessorTable& accessors,
+                                   const std::vector<MaterialTextures>& textures) {
     const JsonPlace places = find_member(root, "images");
     std::vector<ImageFile> files(count_elements(places, MAX_IMAGES));
     std::vector<bool> is_used(files.size(), false);
@@ -179,7 +160,7 @@ std::vector<ImageFile> read_images(const JsonPlace& root, const std::filesystem:
         const JsonPlace place = get_element(places, i);
         files[i].name = place.path;
         try {
-            files[i].bytes = read_image(root, place, folder, buffers, files[i].name);
+            files[i].bytes = read_image(place, folder, accessors, files[i].name);
         } catch (const SceneError& error) {
             files[i].problem = error.what();
         }

@@ -55,7 +55,7 @@ struct ImageFile {
 std::vector<MaterialTextures> check_textures(const JsonPlace& root, std::vector<std::string>& ignored);
 
 // The images that materials use, the others empty; those that can't be read say so in `problem`.
-std::vector<ImageFile> read_images(const JsonPlace& root, const std::filesystem::path& folder,
-                                   const BufferBytes& buffers, const std::vector<MaterialTextures>& textures);
+std::vector<ImageFile> read_images(const JsonPlace& root, const std::filesystem::path& folder, AccessorTable& accessors,
+                                   const std::vector<MaterialTextures>& textures);
 
 } // namespace photonloupe

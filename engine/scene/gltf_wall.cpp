@@ -80,16 +80,16 @@ ApprovedGltf approve_gltf(std::span<const unsigned char> bytes, const std::files
     Json approved{{"asset", {{"version", "2.0"}}}};
     result.ignored = list_ignored_features(root, is_animated);
     result.buffers = read_buffers(root, folder, container.binary_chunk);
+    AccessorTable accessors(root, result.buffers);
     check_materials(root, approved);
     result.textures = check_textures(root, result.ignored);
-    result.images = read_images(root, folder, result.buffers, result.textures);
+    result.images = read_images(root, folder, accessors, result.textures);
     result.hash = hash_content(container.json, result.buffers, result.images);
     NodeTargets targets;
     targets.mesh_count = count_elements(find_member(root, "meshes"), MAX_ENTRIES);
     targets.skin_count = count_elements(find_member(root, "skins"), MAX_ENTRIES);
     targets.camera_count = check_cameras(root, approved);
     targets.light_count = check_lights(root, approved);
-    AccessorTable accessors(root, result.buffers);
     const std::vector<std::uint64_t> draw_counts = check_nodes(root, targets, accessors, approved, result.ignored);
     check_skins(root, accessors, approved);
     check_meshes(root, draw_counts, accessors, approved, result.ignored);

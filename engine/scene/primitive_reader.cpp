@@ -17,7 +17,6 @@ PrimitiveReader::PrimitiveReader(const tinygltf::Primitive& primitive, const std
     const auto find_column = [&](const char* name) { return find_in(primitive.attributes, name); };
     m_positions = find_column("POSITION");
     m_normals = find_column("NORMAL");
-    m_tangents = find_column("TANGENT");
     m_texcoords = {find_column("TEXCOORD_0"), find_column("TEXCOORD_1")};
     m_colors = find_column("COLOR_0");
     m_colors.is_normalized = true; // glTF has no other integers here; some exporters leave the flag out

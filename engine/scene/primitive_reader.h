@@ -23,7 +23,6 @@ public:
 
     std::uint32_t get_triangle_count() const { return m_triangle_count; }
     bool has_normals() const { return m_normals.bytes; }
-    bool has_tangents() const { return m_tangents.bytes; }
     bool has_texcoords(std::size_t set) const { return m_texcoords.at(set).bytes; }
     bool has_colors() const { return m_colors.bytes; }
 
@@ -34,8 +33,7 @@ public:
     }
     // Of any length, and perhaps not finite.
     glm::dvec3 read_normal(std::uint32_t vertex) const { return read_morphed(m_normals, &Target::normals, vertex); }
-    // Numbers that are not finite are 0. The handedness of a tangent is its w.
-    glm::dvec4 read_tangent(std::uint32_t vertex) const { return read_finite(m_tangents, vertex); }
+    // Numbers that are not finite are 0.
     glm::dvec2 read_texcoord(std::size_t set, std::uint32_t vertex) const {
         return glm::dvec2(read_finite(m_texcoords[set], vertex));
     }
@@ -65,7 +63,7 @@ private:
         return m_indices.bytes ? m_indices.read_unsigned(corner) : corner;
     }
 
-    AccessorColumn m_positions, m_normals, m_tangents, m_colors, m_indices;
+    AccessorColumn m_positions, m_normals, m_colors, m_indices;
     std::array<AccessorColumn, 2> m_texcoords, m_joints, m_weights;
     std::vector<Target> m_targets; // those that move anything
     int m_mode = 0;
